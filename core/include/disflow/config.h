@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "disflow/status.h"
+
+/// @file
+/// Settings that may change between runs. Capacities are in limits.h. The one list of names, units,
+/// ranges and meanings is VisitFields() in config_fields.h; Validate(), the TOML reader and
+/// docs/settings.md are made from it.
+
+namespace disflow {
+
+/// Which pixels are the object.
+struct SegmenterConfig {
+  float min_range_m = 0.10F;
+  float max_range_m = 4.0F;
+  float depth_jump_ratio = 0.02F;
+  float model_margin_m = 0.03F;
+  int roi_x_px = 0;
+  int roi_y_px = 0;
+  int roi_width_px = 0;
+  int roi_height_px = 0;
+  int seed_u_px = -1;
+  int seed_v_px = -1;
+};
+
+/// How surface samples are made of pixels.
+struct SamplerConfig {
+  int target_blocks = 1600;
+  int min_block_px = 2;
+  int max_block_px = 16;
+  int border_px = 2;
+  float min_cos_incidence = 0.12F;
+  float min_fill = 0.5F;
+  float max_residual_sigmas = 2.5F;
+  float inverse_depth_std_per_m = 0.0F;
+  float min_inverse_depth_std_per_m = 2e-5F;
+  float sample_floor_m = 1e-4F;
+  float edge_min_cos_incidence = 0.3F;
+  float edge_background_gap_m = 0.02F;
+};
+
+/// The Gaussian-process distance field (section IV).
+struct FieldConfig {
+  float cell_size_m = 0.02F;
+  float length_scale_m = 0.06F;
+  float prior_gradient_std = 0.25F;
+  float value_noise_m = 3e-4F;
+  float normal_noise = 0.1F;
+  float merge_radius_m = 0.005F;
+  float overlap_m = 0.006F;
+  float crease_cos = 0.7F;
+  float reject_floor_m = 0.004F;
+  int freeze_after = 5;
+  int mature_after = 3;
+  int retrain_budget = 4;
+  int fuse_budget = 300;
+};
+
+/// Pose estimation (section V).
+struct RegistrationConfig {
+  int iterations = 8;
+  float robust_scale_start_m = 0.010F;
+  float robust_scale_sigmas = 2.5F;
+  float truncation_m = 0.03F;
+  float min_normal_cos = 0.6F;
+  float match_radius_m = 0.010F;
+  float min_gradient_norm = 0.3F;
+  float damping = 1e-4F;
+  float temporal_std_m = 0.02F;
+  float temporal_std_rad = 0.1F;
+  float edge_std_px = 2.0F;
+  float hypothesis_score = 0.75F;
+  int hypothesis_iterations = 3;
+  int score_points = 120;
+};
+
+/// Velocity at the capture time.
+struct TwistFilterConfig {
+  float linear_jerk_psd = 60.0F;
+  float angular_jerk_psd = 3000.0F;
+};
+
+/// When to trust, doubt and give up the pose.
+struct MonitorConfig {
+  int min_samples = 60;
+  float degraded_score = 0.6F;
+  float lost_score = 0.3F;
+  int lost_after_frames = 3;
+  float reinitialise_after_s = 1.5F;
+};
+
+struct Config {
+  SegmenterConfig segmenter;
+  SamplerConfig sampler;
+  FieldConfig field;
+  RegistrationConfig registration;
+  TwistFilterConfig twist;
+  MonitorConfig monitor;
+};
+
+/// What Validate() found. `field` is null when all is well.
+struct ConfigIssue {
+  const char* field = nullptr;  ///< Dotted name, e.g. "field.cell_size_m"; static storage.
+  double value = 0.0;
+  double min = 0.0;  ///< Allowed range, both ends included.
+  double max = 0.0;
+
+  [[nodiscard]] Status status() const noexcept {
+    return field == nullptr ? Status::kOk : Status::kInvalidConfig;
+  }
+};
+
+/// @return The first setting that is outside its range (NaN included), or an issue whose field is
+/// null.
+[[nodiscard]] ConfigIssue Validate(const Config& config) noexcept;
+
+}  // namespace disflow

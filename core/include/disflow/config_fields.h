@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <type_traits>
+
+#include "disflow/config.h"
+
+namespace disflow {
+
+/// One setting: where it is, what it is called, its allowed range, unit and meaning.
+template <class Value>
+struct ConfigField {
+  const char* name;  ///< Dotted, as in the TOML file: "[registration]" then "iterations".
+  Value& value;
+  double min;
+  double max;
+  const char* unit;
+  const char* meaning;
+};
+
+/// Calls visitor(ConfigField<float or int>) for every setting, in a fixed order.
+/// @param config Config or const Config.
+template <class ConfigType, class Visitor>
+constexpr void VisitFields(ConfigType& config, Visitor&& visitor) {
+  const auto field = [&visitor](const char* name, auto& value, double min, double max,
+                                const char* unit, const char* meaning) {
+    visitor(ConfigField<std::remove_reference_t<decltype(value)>>{name, value, min, max, unit,
+                                                                  meaning});
+  };
+  auto& seg = config.segmenter;
+  field("segmenter.min_range_m", seg.min_range_m, 0.0, 100.0, "m", "nearest depth that is used");
+  field("segmenter.max_range_m", seg.max_range_m, 0.01, 100.0, "m", "farthest depth that is used");
+  field("segmenter.depth_jump_ratio", seg.depth_jump_ratio, 1e-4, 1.0, "m/m",
+        "neighbouring pixels whose depths differ by more than this share of the depth belong to "
+        "different surfaces");
+  field("segmenter.model_margin_m", seg.model_margin_m, 0.0, 1.0, "m",
+        "without a mask, pixels farther than this from the predicted model are not the object");
+  field("segmenter.roi_x_px", seg.roi_x_px, 0, 8192, "px", "region of interest, left edge");
+  field("segmenter.roi_y_px", seg.roi_y_px, 0, 8192, "px", "region of interest, top edge");
+  field("segmenter.roi_width_px", seg.roi_width_px, 0, 8192, "px",
+        "region of interest; 0 = whole image");
+  field("segmenter.roi_height_px", seg.roi_height_px, 0, 8192, "px",
+        "region of interest; 0 = whole image");
+  field("segmenter.seed_u_px", seg.seed_u_px, -1, 8191, "px",
+        "a pixel on the object in the first frame; -1 = nearest");
+  field("segmenter.seed_v_px", seg.seed_v_px, -1, 8191, "px",
+        "a pixel on the object in the first frame; -1 = nearest");
+  auto& sam = config.sampler;
+  field("sampler.target_blocks", sam.target_blocks, 50, 20000, "1",
+        "pixel blocks that shall cover the object");
+  field("sampler.min_block_px", sam.min_block_px, 1, 64, "px", "smallest block edge");
+  field("sampler.max_block_px", sam.max_block_px, 1, 64, "px", "largest block edge");
+  field("sampler.border_px", sam.border_px, 0, 16, "px",
+        "pixels this close to the object's outline are not fitted");
+  field("sampler.min_cos_incidence", sam.min_cos_incidence, 0.0, 0.99, "1",
+        "surfaces seen at a smaller cosine between ray and normal are rejected as grazing");
+  field("sampler.min_fill", sam.min_fill, 0.05, 1.0, "1",
+        "share of a block's pixels that must carry depth");
+  field("sampler.max_residual_sigmas", sam.max_residual_sigmas, 0.5, 20.0, "sigma",
+        "plane fits that are worse are rejected as flying pixels or creases");
+  field("sampler.inverse_depth_std_per_m", sam.inverse_depth_std_per_m, 0.0, 1.0, "1/m",
+        "sensor noise of 1/z per pixel; 0 = estimated from every frame");
+  field("sampler.min_inverse_depth_std_per_m", sam.min_inverse_depth_std_per_m, 1e-7, 1.0, "1/m",
+        "lower bound of the estimated sensor noise");
+  field("sampler.sample_floor_m", sam.sample_floor_m, 0.0, 0.1, "m",
+        "standard deviation that every sample has at least");
+  field("sampler.edge_min_cos_incidence", sam.edge_min_cos_incidence, 0.0, 0.99, "1",
+        "occluding edges are taken from surfaces seen at least this steeply");
+  field("sampler.edge_background_gap_m", sam.edge_background_gap_m, 0.001, 10.0, "m",
+        "background behind an occluding edge is at least this much farther away");
+  auto& fld = config.field;
+  field("field.cell_size_m", fld.cell_size_m, 0.001, 2.0, "m", "edge of an octree leaf");
+  field("field.length_scale_m", fld.length_scale_m, 0.002, 10.0, "m",
+        "length scale of the Matern 3/2 kernel");
+  field("field.prior_gradient_std", fld.prior_gradient_std, 0.01, 2.0, "1",
+        "prior standard deviation of the gradient about the local plane");
+  field("field.value_noise_m", fld.value_noise_m, 1e-6, 0.1, "m",
+        "noise of a surface constraint, added to the sample's own");
+  field("field.normal_noise", fld.normal_noise, 1e-3, 1.0, "1", "noise of a normal constraint");
+  field("field.merge_radius_m", fld.merge_radius_m, 1e-4, 0.5, "m",
+        "observations this close to a sample are averaged into it");
+  field("field.overlap_m", fld.overlap_m, 0.0, 0.5, "m",
+        "neighbouring cells' samples this close to the border are trained on too");
+  field("field.crease_cos", fld.crease_cos, 0.0, 0.99, "1",
+        "normals whose cosine is smaller belong to different sides of a crease");
+  field("field.reject_floor_m", fld.reject_floor_m, 0.0, 1.0, "m",
+        "observations farther than this plus 3 sigma from known surface are not fused");
+  field("field.freeze_after", fld.freeze_after, 1, 250, "1",
+        "a sample stops moving after this many observations");
+  field("field.mature_after", fld.mature_after, 1, 250, "1",
+        "a sample is trained on after this many observations");
+  field("field.retrain_budget", fld.retrain_budget, 1, 10000, "1",
+        "local GPs retrained per frame at most");
+  field("field.fuse_budget", fld.fuse_budget, 10, 100000, "1",
+        "observations fused per frame at most");
+  auto& reg = config.registration;
+  field("registration.iterations", reg.iterations, 1, 50, "1",
+        "closed-form steps per frame at most");
+  field("registration.robust_scale_start_m", reg.robust_scale_start_m, 1e-4, 1.0, "m",
+        "robust kernel width at the first step, halved at each");
+  field("registration.robust_scale_sigmas", reg.robust_scale_sigmas, 0.5, 20.0, "sigma",
+        "robust kernel width at the last step");
+  field("registration.truncation_m", reg.truncation_m, 1e-4, 1.0, "m",
+        "residuals beyond are ignored");
+  field("registration.min_normal_cos", reg.min_normal_cos, -1.0, 0.99, "1",
+        "observed and model normal must agree this well");
+  field("registration.match_radius_m", reg.match_radius_m, 1e-4, 1.0, "m",
+        "tangential distance to the nearest model sample at most");
+  field("registration.min_gradient_norm", reg.min_gradient_norm, 0.0, 1.0, "1",
+        "weaker gradients carry no information");
+  field("registration.damping", reg.damping, 0.0, 1.0, "1",
+        "Levenberg-Marquardt damping relative to diag(H)");
+  field("registration.temporal_std_m", reg.temporal_std_m, 1e-5, 10.0, "m",
+        "expected deviation from the predicted translation");
+  field("registration.temporal_std_rad", reg.temporal_std_rad, 1e-5, 10.0, "rad",
+        "expected deviation from the predicted rotation");
+  field("registration.edge_std_px", reg.edge_std_px, 0.1, 100.0, "px",
+        "noise of an occluding edge in the image");
+  field("registration.hypothesis_score", reg.hypothesis_score, 0.0, 1.0, "1",
+        "below this score more starting poses are tried");
+  field("registration.hypothesis_iterations", reg.hypothesis_iterations, 1, 20, "1",
+        "steps per starting pose");
+  field("registration.score_points", reg.score_points, 20, 500, "1",
+        "samples used to score a pose");
+  auto& twist = config.twist;
+  field("twist.linear_jerk_psd", twist.linear_jerk_psd, 1e-6, 1e9, "m^2/s^5",
+        "power density of the jerk, translation");
+  field("twist.angular_jerk_psd", twist.angular_jerk_psd, 1e-6, 1e9, "rad^2/s^5",
+        "power density of the jerk, rotation");
+  auto& mon = config.monitor;
+  field("monitor.min_samples", mon.min_samples, 10, 2000, "1",
+        "fewer surface samples do not make a pose");
+  field("monitor.degraded_score", mon.degraded_score, 0.0, 1.0, "1",
+        "below this score the state is degraded");
+  field("monitor.lost_score", mon.lost_score, 0.0, 1.0, "1",
+        "below this score the frame does not count as registered");
+  field("monitor.lost_after_frames", mon.lost_after_frames, 1, 1000, "frames",
+        "unregistered frames in a row until lost");
+  field("monitor.reinitialise_after_s", mon.reinitialise_after_s, 0.0, 3600.0, "s",
+        "time after which a lost object is started anew");
+}
+
+}  // namespace disflow

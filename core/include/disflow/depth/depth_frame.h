@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "disflow/geometry/pinhole_camera.h"
+#include "disflow/geometry/transform.h"
+#include "disflow/status.h"
+#include "disflow/types.h"
+
+/// @file
+/// What a depth sensor hands to the tracker. Nothing here owns pixels: the views must stay valid
+/// during Process().
+
+namespace disflow {
+
+enum class DepthFormat : std::uint8_t {
+  kUint16,   ///< Raw units, see DepthView::unit_m; 0 = no data.
+  kFloat32,  ///< Metres; 0, negative, NaN and infinity = no data.
+};
+
+/// Non-owning view of a depth image, row-major, first row on top.
+struct DepthView {
+  const void* data = nullptr;
+  int width_px = 0;
+  int height_px = 0;
+  std::ptrdiff_t stride_bytes =
+      0;  ///< From one row's start to the next's; >= width * bytes per pixel.
+  DepthFormat format = DepthFormat::kUint16;
+  float unit_m = 0.001F;  ///< Metres per unit of kUint16; unused for kFloat32.
+
+  [[nodiscard]] int bytes_per_pixel() const noexcept {
+    return format == DepthFormat::kUint16 ? 2 : 4;
+  }
+  [[nodiscard]] const std::byte* row(int v) const noexcept {
+    return static_cast<const std::byte*>(data) + static_cast<std::ptrdiff_t>(v) * stride_bytes;
+  }
+};
+
+/// Non-owning view of an 8-bit mask; a pixel that is not 0 belongs to the object. No data pointer =
+/// no mask given.
+struct MaskView {
+  const std::uint8_t* data = nullptr;
+  int width_px = 0;
+  int height_px = 0;
+  std::ptrdiff_t stride_bytes = 0;
+
+  [[nodiscard]] bool given() const noexcept { return data != nullptr; }
+  [[nodiscard]] const std::uint8_t* row(int v) const noexcept {
+    return data + static_cast<std::ptrdiff_t>(v) * stride_bytes;
+  }
+};
+
+/// One depth image with all that is known about it.
+struct DepthFrame {
+  DepthView depth;
+  PinholeCamera camera;
+  StampNs stamp_ns = 0;  ///< Capture time on a monotonic clock, never the time of arrival.
+  MaskView mask;         ///< Optional.
+  bool has_T_wc = false;
+  Transform<World, Camera> T_wc;  ///< Optional camera pose in the world, valid if has_T_wc.
+};
+
+/// Checks sizes, strides, intrinsics and T_wc. Pixels are judged later, one by one.
+[[nodiscard]] Status CheckFrame(const DepthFrame& frame, int max_width_px,
+                                int max_height_px) noexcept;
+
+}  // namespace disflow

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// Capacities, fixed at compile time. A profile lists them all; `Tracker<Profile>` owns exactly
+/// that much memory by value. docs/memory.md has the byte table. Settings that may change at run
+/// time are in config.h.
+
+namespace disflow::profiles {
+
+/// Cortex-A class boards, the default.
+struct Edge {
+  static constexpr const char* kName = "Edge";
+  static constexpr int kMaxImageWidth = 1280;
+  static constexpr int kMaxImageHeight = 720;
+  static constexpr int kMaxRuns = 16384;  ///< Horizontal pixel runs in segmentation without a mask.
+  static constexpr int kMaxBlocks = 8192;  ///< Pixel blocks that cover the object's bounding box.
+  static constexpr int kMaxSurfaceSamples = 2048;   ///< M, surface samples per frame.
+  static constexpr int kMaxEdgePoints = 192;        ///< Occluding-edge points per frame.
+  static constexpr int kMaxNodes = 2048;            ///< Octree nodes.
+  static constexpr int kMaxClusters = 1024;         ///< Local GPs.
+  static constexpr int kMaxSamplesPerCluster = 24;  ///< Samples kept by one local GP.
+  static constexpr int kMaxTrainingSamples = 16;    ///< N, samples that one local GP is trained on.
+  static constexpr int kMaxModelEdges = 512;        ///< Occluding-edge samples in the model.
+  static constexpr int kMaxRegistrationPoints = 500;  ///< Samples used by one registration.
+};
+
+/// Cortex-M class controllers: images up to 240 x 180, one hand-sized object.
+struct Micro {
+  static constexpr const char* kName = "Micro";
+  static constexpr int kMaxImageWidth = 240;
+  static constexpr int kMaxImageHeight = 180;
+  static constexpr int kMaxRuns = 2048;
+  static constexpr int kMaxBlocks = 1536;
+  static constexpr int kMaxSurfaceSamples = 512;
+  static constexpr int kMaxEdgePoints = 96;
+  static constexpr int kMaxNodes = 640;
+  static constexpr int kMaxClusters = 320;
+  static constexpr int kMaxSamplesPerCluster = 20;
+  static constexpr int kMaxTrainingSamples = 12;
+  static constexpr int kMaxModelEdges = 192;
+  static constexpr int kMaxRegistrationPoints = 250;
+};
+
+/// PC and Jetson class machines, rooms and people.
+struct Dense {
+  static constexpr const char* kName = "Dense";
+  static constexpr int kMaxImageWidth = 1920;
+  static constexpr int kMaxImageHeight = 1200;
+  static constexpr int kMaxRuns = 49152;
+  static constexpr int kMaxBlocks = 24576;
+  static constexpr int kMaxSurfaceSamples = 6144;
+  static constexpr int kMaxEdgePoints = 384;
+  static constexpr int kMaxNodes = 16384;
+  static constexpr int kMaxClusters = 8192;
+  static constexpr int kMaxSamplesPerCluster = 24;
+  static constexpr int kMaxTrainingSamples = 16;
+  static constexpr int kMaxModelEdges = 2048;
+  static constexpr int kMaxRegistrationPoints = 1500;
+};
+
+}  // namespace disflow::profiles

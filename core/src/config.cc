@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "disflow/config.h"
+
+#include "disflow/config_fields.h"
+
+namespace disflow {
+
+ConfigIssue Validate(const Config& config) noexcept {
+  ConfigIssue issue;
+  VisitFields(config, [&issue](const auto& field) {
+    const auto value = static_cast<double>(field.value);
+    // Written so that NaN fails too.
+    if (issue.field == nullptr && !(value >= field.min && value <= field.max)) {
+      issue = {field.name, value, field.min, field.max};
+    }
+  });
+  if (issue.field == nullptr && config.segmenter.max_range_m <= config.segmenter.min_range_m) {
+    issue = {"segmenter.max_range_m", static_cast<double>(config.segmenter.max_range_m),
+             static_cast<double>(config.segmenter.min_range_m), 100.0};
+  }
+  if (issue.field == nullptr && config.sampler.max_block_px < config.sampler.min_block_px) {
+    issue = {"sampler.max_block_px", static_cast<double>(config.sampler.max_block_px),
+             static_cast<double>(config.sampler.min_block_px), 64.0};
+  }
+  return issue;
+}
+
+}  // namespace disflow

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "disflow/depth/depth_frame.h"
+
+namespace disflow {
+namespace {
+
+bool HasRigidRotation(const Transform<World, Camera>& T_wc) noexcept {
+  constexpr float kTolerance = 1e-2F;
+  const Mat3 gram = T_wc.rotation().transpose() * T_wc.rotation();
+  return (gram - Mat3::Identity()).cwiseAbs().maxCoeff() < kTolerance &&
+         T_wc.rotation().determinant() > 0.0F;
+}
+
+}  // namespace
+
+Status CheckFrame(const DepthFrame& frame, int max_width_px, int max_height_px) noexcept {
+  const DepthView& depth = frame.depth;
+  if (depth.data == nullptr || depth.width_px <= 0 || depth.height_px <= 0)
+    return Status::kInvalidImageSize;
+  if (depth.width_px > max_width_px || depth.height_px > max_height_px)
+    return Status::kImageTooLarge;
+  if (depth.stride_bytes < static_cast<std::ptrdiff_t>(depth.width_px) * depth.bytes_per_pixel()) {
+    return Status::kInvalidImageSize;
+  }
+  if (depth.format == DepthFormat::kUint16 &&
+      !(depth.unit_m > 0.0F && std::isfinite(depth.unit_m))) {
+    return Status::kInvalidImageSize;
+  }
+  if (!frame.camera.IsValid()) return Status::kInvalidIntrinsics;
+  if (frame.mask.given() &&
+      (frame.mask.width_px != depth.width_px || frame.mask.height_px != depth.height_px ||
+       frame.mask.stride_bytes < frame.mask.width_px)) {
+    return Status::kMaskSizeMismatch;
+  }
+  if (frame.has_T_wc && !(frame.T_wc.IsFinite() && HasRigidRotation(frame.T_wc)))
+    return Status::kInvalidTransform;
+  return Status::kOk;
+}
+
+}  // namespace disflow

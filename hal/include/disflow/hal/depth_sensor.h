@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+#include "disflow/depth/depth_frame.h"
+#include "disflow/hal/fault.h"
+
+namespace disflow::hal {
+
+/// What a sensor is and delivers; texts are owned by the sensor.
+struct SensorInfo {
+  const char* name = "";  ///< For people, e.g. "replay of box_fast, 300 frames".
+  int width_px = 0;
+  int height_px = 0;
+  float rate_hz = 0.0F;
+  bool live = false;  ///< true: frames come in real time and are lost if nobody takes them.
+};
+
+/// Frames that never reached the tracker, counted since Open().
+struct SensorCounters {
+  std::uint32_t frames = 0;  ///< Delivered by Next().
+  std::uint32_t dropped =
+      0;  ///< Lost between sensor and Next() (sequence gaps, newest-frame policy).
+  std::uint32_t corrupt = 0;     ///< Short or flagged as erroneous, thrown away.
+  std::uint32_t reconnects = 0;  ///< Times the device went away and came back.
+};
+
+/// A source of depth frames. Public methods are fixed; implementations override the Do methods.
+/// Not thread-safe. Neither constructing nor calling it from the base allocates.
+class DepthSensor {
+ public:
+  DepthSensor(const DepthSensor&) = delete;
+  DepthSensor& operator=(const DepthSensor&) = delete;
+
+  /// Makes the sensor ready. Idempotent after success.
+  [[nodiscard]] Fault Open() noexcept { return DoOpen(); }
+
+  /// Waits for the next frame. The frame's views stay valid until the next call of Next() or
+  /// Close().
+  /// @return kOk, kTimeout, kEndOfStream, kDeviceLost (call Open() again), kTruncated or kCorrupt
+  /// (this frame is lost,
+  ///         the next call goes on), kNotOpen.
+  [[nodiscard]] Fault Next(std::int64_t timeout_ns, DepthFrame& frame) noexcept {
+    return DoNext(timeout_ns, frame);
+  }
+
+  /// Idempotent.
+  void Close() noexcept { DoClose(); }
+
+  [[nodiscard]] SensorInfo info() const noexcept { return DoInfo(); }
+  [[nodiscard]] SensorCounters counters() const noexcept { return DoCounters(); }
+
+ protected:
+  DepthSensor() = default;
+  // Not virtual: sensors are owned by their concrete type, and a virtual one would pull in operator
+  // delete.
+  ~DepthSensor() = default;
+
+ private:
+  virtual Fault DoOpen() noexcept = 0;
+  virtual Fault DoNext(std::int64_t timeout_ns, DepthFrame& frame) noexcept = 0;
+  virtual void DoClose() noexcept = 0;
+  [[nodiscard]] virtual SensorInfo DoInfo() const noexcept = 0;
+  [[nodiscard]] virtual SensorCounters DoCounters() const noexcept = 0;
+};
+
+}  // namespace disflow::hal
