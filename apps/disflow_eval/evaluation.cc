@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evaluation.h"
+
+#include "ground_truth.h"
+#include "model_file.h"
+#include "surface.h"
+
+namespace disflow::apps {
+namespace {
+
+/// Points for ADD from a mesh; ADD changes by less than a thousandth with more.
+constexpr std::size_t kAddPoints = 2000;
+
+std::vector<Vec3d> Positions(const std::vector<SurfacePoint>& points) {
+  std::vector<Vec3d> positions;
+  positions.reserve(points.size());
+  for (const SurfacePoint& point : points) positions.push_back(point.position);
+  return positions;
+}
+
+}  // namespace
+
+Report Evaluate(const EvaluationInput& input) {
+  Report report;
+  report.sequence = input.sequence_dir.string();
+  report.csv = input.csv.string();
+  const std::filesystem::path model_file =
+      input.model.empty() ? input.sequence_dir / "gt" / "model.obj" : input.model;
+  report.model = model_file.string();
+
+  const GroundTruth truth = LoadGroundTruth(input.sequence_dir);
+  report.estimates = LoadEstimates(input.csv, static_cast<int>(truth.T_ct.size()));
+  const Surface model = LoadModel(model_file);
+  const std::vector<Vec3d> model_points = Positions(SampleSurface(model, kAddPoints));
+
+  report.model_points = model_points.size();
+  report.has_velocities = !truth.twists.empty();
+  report.run = Align(truth, report.estimates);
+  report.poses = EvaluatePoses(report.run, model_points);
+  report.pose_consistency = EvaluatePoseConsistency(report.run);
+  if (report.has_velocities) report.twist_consistency = EvaluateTwistConsistency(report.run);
+  report.stages = EvaluateTiming(report.estimates);
+  return report;
+}
+
+}  // namespace disflow::apps

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "statistics.h"
+#include "trajectory.h"
+
+namespace disflow::apps {
+
+/// Threshold up to which ADD counts (the paper's tau).
+inline constexpr double kAddLimit_m = 0.10;
+
+/// Errors of one frame.
+struct FrameError {
+  int frame = 0;
+  double timestamp_s = 0.0;
+  double add_m = 0.0;    ///< Mean distance of corresponding model points.
+  double add_s_m = 0.0;  ///< Mean distance of nearest model points, for symmetric objects.
+  double translation_m = 0.0;
+  double rotation_rad = 0.0;
+  double linear_mps = 0.0;
+  double angular_rps = 0.0;
+};
+
+/// The metrics of the paper's section VI and their companions.
+struct PoseMetrics {
+  std::vector<FrameError> frames;  ///< Frames that have an estimate.
+  double add_auc = 0.0;            ///< 0..1; frames without an estimate count as never accurate.
+  double add_s_auc = 0.0;
+  /// Over the frames that have an estimate.
+  Statistics add_m, add_s_m, translation_m, rotation_rad, linear_mps, angular_rps;
+  double final_translation_m = 0.0;  ///< Drift: the last frame's error.
+  double final_rotation_rad = 0.0;
+};
+
+/// @param model_points Points of the model, true object frame, not empty.
+[[nodiscard]] PoseMetrics EvaluatePoses(const AlignedTrajectory& run,
+                                        const std::vector<Vec3d>& model_points);
+
+}  // namespace disflow::apps

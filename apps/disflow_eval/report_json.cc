@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <nlohmann/json.hpp>
+
+#include "report.h"
+#include "units.h"
+
+namespace disflow::apps {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// @param scale Factor from SI to the unit of the key that will hold this.
+Json ToJson(const Statistics& s, double scale = 1.0) {
+  return {{"count", s.count},          {"mean", scale * s.mean}, {"rmse", scale * s.rms},
+          {"median", scale * s.median}, {"p95", scale * s.p95},   {"p99", scale * s.p99},
+          {"max", scale * s.max}};
+}
+
+Json ToJson(const Consistency& c) {
+  return {{"nees_mean", c.statistics.mean},
+          {"nees_median", c.statistics.median},
+          {"share_inside_2_5_to_97_5", c.share_inside},
+          {"share_below_95", c.share_below_95},
+          {"frames", c.nees.size()},
+          {"not_positive_definite", c.singular}};
+}
+
+}  // namespace
+
+std::string FormatJson(const Report& report) {
+  const PoseMetrics& m = report.poses;
+  Json json = {{"sequence", report.sequence},
+               {"csv", report.csv},
+               {"model", report.model},
+               {"model_points", report.model_points},
+               {"frames",
+                {{"sequence", report.run.frame_count},
+                 {"estimated", report.run.frames.size()},
+                 {"lost", report.run.lost},
+                 {"missing", report.run.missing()},
+                 {"aligned_at", report.run.aligned_frame}}},
+               {"add_auc_percent", kPercent * m.add_auc},
+               {"add_s_auc_percent", kPercent * m.add_s_auc},
+               {"add_m", ToJson(m.add_m)},
+               {"add_s_m", ToJson(m.add_s_m)},
+               {"translation_m", ToJson(m.translation_m)},
+               {"rotation_deg", ToJson(m.rotation_rad, kDegrees)},
+               {"final_drift_m", m.final_translation_m},
+               {"final_drift_deg", kDegrees * m.final_rotation_rad}};
+  if (report.has_velocities) {
+    json["linear_velocity_mps"] = ToJson(m.linear_mps);
+    json["angular_velocity_degps"] = ToJson(m.angular_rps, kDegrees);
+  }
+  if (report.pose_consistency) json["pose_consistency"] = ToJson(*report.pose_consistency);
+  if (report.twist_consistency) json["twist_consistency"] = ToJson(*report.twist_consistency);
+  for (const StageTiming& stage : report.stages) json["time_ms"][stage.name] = ToJson(stage.ms);
+  // File names need not be UTF-8; a replaced byte is better than no report.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace disflow::apps

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "text_file.h"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+
+#include "errors.h"
+
+namespace disflow::apps {
+namespace {
+
+constexpr std::string_view kSpaces = " \t\r";
+
+std::string_view Trim(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(kSpaces);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kSpaces) - first + 1);
+}
+
+void WriteDirectly(const std::filesystem::path& file, std::string_view text) {
+  errno = 0;
+  std::ofstream stream(file, std::ios::binary | std::ios::trunc);
+  stream.write(text.data(), static_cast<std::streamsize>(text.size()));
+  stream.close();
+  if (!stream) {
+    throw OutputError(file, std::string("cannot be written: ") + std::strerror(errno));
+  }
+}
+
+}  // namespace
+
+std::string ReadFile(const std::filesystem::path& file) {
+  std::error_code error;
+  if (std::filesystem::is_directory(file, error)) {
+    throw InputError(file, "is a folder, a file is needed");
+  }
+  errno = 0;
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw InputError(file, std::string("cannot be opened: ") + std::strerror(errno));
+  std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  if (stream.bad()) throw InputError(file, std::string("cannot be read: ") + std::strerror(errno));
+  return text;
+}
+
+void WriteFile(const std::filesystem::path& file, std::string_view text) {
+  std::error_code error;
+  if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error)) {
+    WriteDirectly(file, text);
+    return;
+  }
+  std::filesystem::path partial = file;
+  partial += ".partial-" + std::to_string(::getpid());
+  try {
+    WriteDirectly(partial, text);
+  } catch (const OutputError&) {
+    std::filesystem::remove(partial, error);
+    throw;
+  }
+  std::filesystem::rename(partial, file, error);
+  if (error) {
+    const std::string reason = error.message();
+    std::filesystem::remove(partial, error);
+    throw OutputError(file, "cannot be replaced: " + reason);
+  }
+}
+
+std::vector<Line> NonEmptyLines(std::string_view text) {
+  std::vector<Line> lines;
+  std::size_t number = 0;
+  while (!text.empty()) {
+    ++number;
+    const std::size_t end = text.find('\n');
+    const std::string_view line = Trim(text.substr(0, end));
+    if (!line.empty()) lines.push_back({number, line});
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+  }
+  return lines;
+}
+
+std::vector<std::string_view> SplitAt(std::string_view line, char separator) {
+  std::vector<std::string_view> fields;
+  while (true) {
+    const std::size_t end = line.find(separator);
+    fields.push_back(Trim(line.substr(0, end)));
+    if (end == std::string_view::npos) return fields;
+    line.remove_prefix(end + 1);
+  }
+}
+
+std::vector<std::string_view> SplitAtSpaces(std::string_view line) {
+  std::vector<std::string_view> fields;
+  while (true) {
+    line = Trim(line);
+    if (line.empty()) return fields;
+    const std::size_t end = std::min(line.find_first_of(kSpaces), line.size());
+    fields.push_back(line.substr(0, end));
+    line.remove_prefix(end);
+  }
+}
+
+std::optional<double> ParseNumber(std::string_view field) {
+  double value = 0.0;
+  const char* const end = field.data() + field.size();
+  const auto [stop, error] = std::from_chars(field.data(), end, value);
+  if (error != std::errc() || stop != end) return std::nullopt;
+  return value;
+}
+
+std::vector<double> ParseNumbers(const std::filesystem::path& file, const Line& line,
+                                 std::size_t count) {
+  const std::vector<std::string_view> fields = SplitAtSpaces(line.text);
+  if (fields.size() != count) {
+    throw InputError(file, line.number,
+                     "holds " + std::to_string(fields.size()) + " fields, " +
+                         std::to_string(count) + " are needed");
+  }
+  std::vector<double> values;
+  values.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    values.push_back(ParseFinite(file, line, std::to_string(i + 1), fields[i]));
+  }
+  return values;
+}
+
+double ParseFinite(const std::filesystem::path& file, const Line& line, std::string_view name,
+                   std::string_view field) {
+  const std::optional<double> value = ParseNumber(field);
+  if (!value || !std::isfinite(*value)) {
+    throw InputError(file, line.number,
+                     "field " + std::string(name) + " is '" + std::string(field) +
+                         "', a finite number is needed");
+  }
+  return *value;
+}
+
+int ParseIndex(const std::filesystem::path& file, const Line& line, std::string_view name,
+               std::string_view field) {
+  int value = 0;
+  const char* const end = field.data() + field.size();
+  const auto [stop, error] = std::from_chars(field.data(), end, value);
+  if (error != std::errc() || stop != end || value < 0) {
+    throw InputError(file, line.number,
+                     "field " + std::string(name) + " is '" + std::string(field) +
+                         "', a whole number from 0 on is needed");
+  }
+  return value;
+}
+
+}  // namespace disflow::apps

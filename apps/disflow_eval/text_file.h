@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace disflow::apps {
+
+/// The whole of a file. @throws InputError if it cannot be read.
+[[nodiscard]] std::string ReadFile(const std::filesystem::path& file);
+
+/// Writes through a temporary file beside the target and renames it, so that an earlier result
+/// survives a full disk. Targets that are not regular files (/dev/null, pipes) are written directly.
+/// @throws OutputError
+void WriteFile(const std::filesystem::path& file, std::string_view text);
+
+/// A line of text and its number, counted from 1.
+struct Line {
+  std::size_t number = 0;
+  std::string_view text;  ///< Without line end (LF or CRLF).
+};
+
+/// The lines of a text that hold more than white space. The views point into `text`.
+[[nodiscard]] std::vector<Line> NonEmptyLines(std::string_view text);
+
+/// Fields between separators, white space around each removed. Empty fields are kept.
+[[nodiscard]] std::vector<std::string_view> SplitAt(std::string_view line, char separator);
+
+/// Fields between runs of spaces and tabs.
+[[nodiscard]] std::vector<std::string_view> SplitAtSpaces(std::string_view line);
+
+/// The number that makes up the whole field ("nan" and "inf" included), independent of the locale.
+[[nodiscard]] std::optional<double> ParseNumber(std::string_view field);
+
+/// Reads a line of exactly `count` finite numbers separated by spaces.
+/// @throws InputError naming file, line and field.
+[[nodiscard]] std::vector<double> ParseNumbers(const std::filesystem::path& file, const Line& line,
+                                               std::size_t count);
+
+/// A finite number in a field. @throws InputError naming file, line and the field's `name`.
+[[nodiscard]] double ParseFinite(const std::filesystem::path& file, const Line& line,
+                                 std::string_view name, std::string_view field);
+
+/// A whole number, not negative. @throws InputError naming file, line and the field's `name`.
+[[nodiscard]] int ParseIndex(const std::filesystem::path& file, const Line& line,
+                             std::string_view name, std::string_view field);
+
+}  // namespace disflow::apps

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "trajectory.h"
+
+#include <algorithm>
+
+#include "errors.h"
+
+namespace disflow::apps {
+namespace {
+
+bool HasPose(const EstimateRow& row) { return row.status.empty() || row.status == "ok"; }
+
+bool IsLost(const EstimateRow& row) { return !HasPose(row) || row.state == "lost"; }
+
+}  // namespace
+
+AlignedTrajectory Align(const GroundTruth& truth, const EstimateTable& estimates) {
+  const auto first = std::find_if(estimates.rows.begin(), estimates.rows.end(), HasPose);
+  if (first == estimates.rows.end()) {
+    throw InputError("no row of the estimates has the status 'ok', so nothing can be aligned");
+  }
+  AlignedTrajectory run;
+  run.frame_count = truth.T_ct.size();
+  run.aligned_frame = first->frame;
+  run.T_ot = first->T_co.Inverse() * truth.T_ct[static_cast<std::size_t>(first->frame)];
+  for (auto row = first; row != estimates.rows.end(); ++row) {
+    const auto k = static_cast<std::size_t>(row->frame);
+    AlignedFrame frame;
+    frame.row = &*row;
+    frame.T_ct = truth.T_ct[k];
+    frame.T_ct_estimated = row->T_co * run.T_ot;
+    frame.twist_estimated =
+        MoveTo(row->twist, frame.T_ct.translation() - row->T_co.translation());
+    if (!truth.twists.empty()) frame.twist = truth.twists[k];
+    run.frames.push_back(frame);
+    if (IsLost(*row)) ++run.lost;
+  }
+  return run;
+}
+
+}  // namespace disflow::apps
