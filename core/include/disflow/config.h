@@ -73,6 +73,7 @@ struct RegistrationConfig {
   float hypothesis_score = 0.75F;
   int hypothesis_iterations = 3;
   int score_points = 120;
+  float covariance_inflation = 4.0F;
 };
 
 /// Velocity at the capture time.

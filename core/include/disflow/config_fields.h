@@ -122,6 +122,8 @@ constexpr void VisitFields(ConfigType& config, Visitor&& visitor) {
         "steps per starting pose");
   field("registration.score_points", reg.score_points, 20, 500, "1",
         "samples used to score a pose");
+  field("registration.covariance_inflation", reg.covariance_inflation, 1.0, 1e4, "1",
+        "factor on the pose covariance for what the noise model leaves out: correlated noise and model error");
   auto& twist = config.twist;
   field("twist.linear_jerk_psd", twist.linear_jerk_psd, 1e-6, 1e9, "m^2/s^5",
         "power density of the jerk, translation");

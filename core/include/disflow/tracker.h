@@ -3,41 +3,100 @@
 
 #include "disflow/config.h"
 #include "disflow/depth/depth_frame.h"
+#include "disflow/depth/edge_sampler.h"
+#include "disflow/depth/segmenter.h"
+#include "disflow/depth/surface_sampler.h"
 #include "disflow/estimate.h"
+#include "disflow/field/distance_field.h"
+#include "disflow/field/edge_map.h"
+#include "disflow/flow/pose_search.h"
+#include "disflow/flow/registration.h"
+#include "disflow/flow/tracking_monitor.h"
+#include "disflow/flow/twist_filter.h"
 #include "disflow/limits.h"
+#include "disflow/stage_stopwatch.h"
 #include "disflow/status.h"
 
 namespace disflow {
 
-/// Tracks and reconstructs one rigid object (the paper's section V). Owns all of its memory by
-/// value and never allocates: `static Tracker<profiles::Edge> tracker;` lives in .bss. Not
-/// thread-safe; one instance per object.
-/// @tparam Limits A profile of limits.h.
+/// Tracks and reconstructs one rigid object (the paper's section V). Owns all of its memory by value and never
+/// allocates: `static Tracker<profiles::Edge> tracker;` lives in .bss. Not thread-safe; one instance per object.
+/// @tparam Limits A profile of limits.h. For a profile of your own include tracker_impl.h in one source file.
 template <class Limits>
 class Tracker {
  public:
+  using Field = DistanceField<Limits>;
+
   /// @param config Checked; see config_issue(). Process() refuses to work with an invalid one.
   explicit Tracker(const Config& config = Config{}) noexcept;
   Tracker(const Tracker&) = delete;
   Tracker& operator=(const Tracker&) = delete;
 
   /// The whole pipeline on one frame: segment, sample, predict, register, filter, fuse, retrain.
-  /// @param estimate Always written completely. Its pose and twist are predictions if the status is
-  /// not ok.
+  /// @param estimate Always written completely. Its pose and twist are predictions if the status is not ok.
   /// @return Same as estimate.status. A refused frame changes nothing but the counters.
   Status Process(const DepthFrame& frame, Estimate& estimate, StageClock clock = {}) noexcept;
 
-  /// Fuses a frame whose pose is known (turntable, robot arm) instead of estimating it.
-  /// The first call fixes nothing: the object frame is the caller's.
+  /// Fuses a frame whose pose is known (turntable, robot arm) instead of estimating it. The object frame is the caller's.
+  /// Not to be mixed with Process() on the same object.
   Status Fuse(const DepthFrame& frame, const PoseObjectFromCamera& T_oc, Estimate& estimate,
               StageClock clock = {}) noexcept;
 
   /// Forgets the object; the next frame starts a new one and bumps reset_counter.
   void Reset() noexcept;
 
-  [[nodiscard]] const ConfigIssue& config_issue() const noexcept;
+  [[nodiscard]] const ConfigIssue& config_issue() const noexcept { return config_issue_; }
+  /// The reconstructed surface; see also surface_extractor.h.
+  [[nodiscard]] const Field& field() const noexcept { return field_; }
   /// Sums of Estimate::rejected since construction, saturating.
-  [[nodiscard]] const Counters& totals() const noexcept;
+  [[nodiscard]] const Counters& totals() const noexcept { return totals_; }
+
+ private:
+  static constexpr std::uint32_t kInitialFrames = 5;  ///< Frames after a start during which training catches up.
+  static constexpr int kInitialBudgetFactor = 12;
+  static constexpr float kDefinedPoseVariance = 1e-10F;  ///< (0.01 mm)^2 and (0.01 mrad)^2.
+  static constexpr float kKnownPoseVariance = 1e-8F;
+
+  using Aligned = typename Registration<Limits>::Result;
+
+  void Begin(const DepthFrame& frame, Estimate& estimate) noexcept;
+  [[nodiscard]] Status Check(const DepthFrame& frame) const noexcept;
+  [[nodiscard]] Status Observe(const DepthFrame& frame, Estimate& estimate, StageStopwatch& stopwatch) noexcept;
+  void StartObject(const DepthFrame& frame) noexcept;
+  [[nodiscard]] Aligned Register(Estimate& estimate) noexcept;
+  [[nodiscard]] Status Conclude(const DepthFrame& frame, Status observed, const Aligned& aligned,
+                                Estimate& estimate) noexcept;
+  [[nodiscard]] Mat6 PoseCovariance(const Aligned& aligned) const noexcept;
+  void FuseObservations(Estimate& estimate) noexcept;
+  void Retrain() noexcept;
+  Status Finish(Status status, const DepthFrame& frame, Estimate& estimate) noexcept;
+
+  Config config_;
+  ConfigIssue config_issue_;
+  Counters totals_;
+  bool started_ = false;            ///< An object frame exists.
+  std::uint8_t reset_counter_ = 0;
+  std::uint32_t frame_index_ = 0;   ///< Frames since the object frame was started.
+  bool has_stamp_ = false;
+  StampNs last_stamp_ns_ = 0;
+  PoseObjectFromCamera T_oc_;       ///< Latest registered or predicted pose.
+  PoseObjectFromCamera T_oc_previous_;  ///< Of the last registered frame.
+
+  typename Segmenter<Limits>::Mask object_mask_;
+  typename Segmenter<Limits>::Mask interior_mask_;
+  Segmenter<Limits> segmenter_;
+  SurfaceSampler<Limits> sampler_;
+  typename SurfaceSampler<Limits>::Samples samples_;
+  typename EdgeSampler<Limits>::Edges edges_;
+  Registration<Limits> registration_;
+  Field field_;
+  EdgeMap<Limits::kMaxModelEdges> model_edges_;
+  TwistFilter twist_filter_;
+  TrackingMonitor monitor_;
 };
+
+extern template class Tracker<profiles::Micro>;
+extern template class Tracker<profiles::Edge>;
+extern template class Tracker<profiles::Dense>;
 
 }  // namespace disflow

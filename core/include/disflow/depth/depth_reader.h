@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+#include <cstring>
+
+#include "disflow/depth/depth_frame.h"
+
+namespace disflow {
+
+/// Reads depth in metres from a row of either format; what is not usable reads as 0.
+class DepthReader {
+ public:
+  DepthReader(const DepthView& view, float min_range_m, float max_range_m) noexcept
+      : view_(view), min_m_(min_range_m), max_m_(max_range_m) {}
+
+  [[nodiscard]] float At(int u, int v) const noexcept {
+    const std::byte* pixel = view_.row(v) + static_cast<std::ptrdiff_t>(u) * view_.bytes_per_pixel();
+    float depth_m = 0.0F;
+    if (view_.format == DepthFormat::kUint16) {
+      std::uint16_t raw = 0;
+      std::memcpy(&raw, pixel, sizeof raw);
+      depth_m = static_cast<float>(raw) * view_.unit_m;
+    } else {
+      std::memcpy(&depth_m, pixel, sizeof depth_m);
+    }
+    // NaN fails both comparisons.
+    return depth_m >= min_m_ && depth_m <= max_m_ && depth_m > 0.0F ? depth_m : 0.0F;
+  }
+
+  /// As At(), but 0 outside of the image.
+  [[nodiscard]] float AtOrZero(int u, int v) const noexcept {
+    return u < 0 || v < 0 || u >= view_.width_px || v >= view_.height_px ? 0.0F : At(u, v);
+  }
+
+  [[nodiscard]] int width_px() const noexcept { return view_.width_px; }
+  [[nodiscard]] int height_px() const noexcept { return view_.height_px; }
+
+ private:
+  DepthView view_;
+  float min_m_;
+  float max_m_;
+};
+
+}  // namespace disflow

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+
+#include "disflow/types.h"
+
+/// @file
+/// Planes are fitted in (u, v, w = 1/z): there a plane is affine in the pixel coordinates and the noise of a stereo or
+/// structured-light sensor is the same everywhere.
+
+namespace disflow {
+
+/// Sums over the pixels of one block, relative to a pixel (u0, v0) and a reference inverse depth, so that float suffices.
+struct PixelMoments {
+  float n = 0.0F;
+  float u = 0.0F, v = 0.0F, w = 0.0F;
+  float uu = 0.0F, uv = 0.0F, vv = 0.0F;
+  float uw = 0.0F, vw = 0.0F, ww = 0.0F;
+  float w_reference = 0.0F;  ///< [1/m]
+
+  void Add(float du, float dv, float inverse_depth) noexcept {
+    if (n == 0.0F) w_reference = inverse_depth;
+    const float dw = inverse_depth - w_reference;
+    n += 1.0F;
+    u += du;
+    v += dv;
+    w += dw;
+    uu += du * du;
+    uv += du * dv;
+    vv += dv * dv;
+    uw += du * dw;
+    vw += dv * dw;
+    ww += dw * dw;
+  }
+
+  /// Adds another block's sums, whose origin lies (du, dv) pixels from this one's.
+  void Merge(const PixelMoments& other, float du, float dv) noexcept {
+    if (other.n == 0.0F) return;
+    if (n == 0.0F) w_reference = other.w_reference;
+    const float dw = other.w_reference - w_reference;
+    n += other.n;
+    u += other.u + other.n * du;
+    v += other.v + other.n * dv;
+    w += other.w + other.n * dw;
+    uu += other.uu + du * (2.0F * other.u + other.n * du);
+    vv += other.vv + dv * (2.0F * other.v + other.n * dv);
+    uv += other.uv + du * other.v + dv * other.u + other.n * du * dv;
+    uw += other.uw + du * other.w + dw * other.u + other.n * du * dw;
+    vw += other.vw + dv * other.w + dw * other.v + other.n * dv * dw;
+    ww += other.ww + dw * (2.0F * other.w + other.n * dw);
+  }
+};
+
+/// w = mean_w + slope_u (u - mean_u) + slope_v (v - mean_v), fitted to PixelMoments.
+struct InverseDepthPlane {
+  bool valid = false;
+  float n = 0.0F;
+  float mean_u = 0.0F, mean_v = 0.0F;  ///< Relative to the moments' origin [px].
+  float mean_w = 0.0F;                 ///< [1/m]
+  float slope_u = 0.0F, slope_v = 0.0F;  ///< [1/(m px)]
+  float residual_variance = 0.0F;        ///< Per pixel, unbiased [1/m^2].
+  float inverse_uu = 0.0F, inverse_uv = 0.0F, inverse_vv = 0.0F;  ///< Inverse scatter of the pixels: slope covariance / variance.
+
+  [[nodiscard]] float At(float u, float v) const noexcept {
+    return mean_w + slope_u * (u - mean_u) + slope_v * (v - mean_v);
+  }
+  /// Variance of At(u, v) per unit of pixel variance.
+  [[nodiscard]] float Leverage(float u, float v) const noexcept {
+    const float du = u - mean_u;
+    const float dv = v - mean_v;
+    return 1.0F / n + inverse_uu * du * du + 2.0F * inverse_uv * du * dv + inverse_vv * dv * dv;
+  }
+
+  [[nodiscard]] static InverseDepthPlane Fit(const PixelMoments& m) noexcept {
+    InverseDepthPlane plane;
+    constexpr float kMinPixels = 4.0F;
+    if (m.n < kMinPixels) return plane;
+    const float inverse_n = 1.0F / m.n;
+    plane.n = m.n;
+    plane.mean_u = m.u * inverse_n;
+    plane.mean_v = m.v * inverse_n;
+    const float cuu = m.uu - m.u * plane.mean_u;
+    const float cvv = m.vv - m.v * plane.mean_v;
+    const float cuv = m.uv - m.u * plane.mean_v;
+    const float cuw = m.uw - plane.mean_u * m.w;
+    const float cvw = m.vw - plane.mean_v * m.w;
+    const float cww = m.ww - m.w * m.w * inverse_n;
+    const float determinant = cuu * cvv - cuv * cuv;
+    // Pixels (nearly) on one line do not span a plane.
+    if (determinant < 0.05F * cuu * cvv || determinant <= 0.0F) return plane;
+    plane.inverse_uu = cvv / determinant;
+    plane.inverse_vv = cuu / determinant;
+    plane.inverse_uv = -cuv / determinant;
+    plane.slope_u = plane.inverse_uu * cuw + plane.inverse_uv * cvw;
+    plane.slope_v = plane.inverse_uv * cuw + plane.inverse_vv * cvw;
+    plane.mean_w = m.w_reference + m.w * inverse_n;
+    const float residual = cww - plane.slope_u * cuw - plane.slope_v * cvw;
+    plane.residual_variance = std::fmax(residual, 0.0F) / (m.n - 3.0F);
+    plane.valid = true;
+    return plane;
+  }
+};
+
+}  // namespace disflow

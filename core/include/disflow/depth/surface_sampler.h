@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "disflow/config.h"
+#include "disflow/depth/depth_reader.h"
+#include "disflow/depth/inverse_depth_block.h"
+#include "disflow/depth/pixel_mask.h"
+#include "disflow/depth/surface_sample.h"
+#include "disflow/estimate.h"
+#include "disflow/memory/fixed_vector.h"
+
+namespace disflow {
+
+/// Turns the object's pixels into at most M surface samples with position, normal and variance.
+///
+/// Pixels are summed per small block; planes are fitted to windows of 3x3 blocks in inverse depth (see
+/// inverse_depth_block.h). Where the whole window does not fit one plane, windows to one side are tried, so that creases
+/// keep their normals; what fits nothing is a flying pixel or clutter and is counted and dropped.
+template <class Limits>
+class SurfaceSampler {
+ public:
+  using Samples = FixedVector<SurfaceSample, Limits::kMaxSurfaceSamples>;
+
+  /// @param interior Object pixels away from the outline.
+  template <class Mask>
+  void Sample(const DepthReader& depth, const PinholeCamera& camera, const Mask& interior, const SamplerConfig& config,
+              Samples& samples, Counters& counters) noexcept {
+    samples.clear();
+    LayOutGrid(interior, config);
+    SumBlocks(depth, interior, counters);
+    noise_std_ = config.inverse_depth_std_per_m > 0.0F ? config.inverse_depth_std_per_m
+                                                       : std::max(EstimateNoise(), config.min_inverse_depth_std_per_m);
+    for (int row = 0; row < rows_; ++row) {
+      for (int column = 0; column < columns_; ++column) FitBlock(camera, config, column, row, samples, counters);
+    }
+  }
+
+  /// The fitted plane of the block nearest to a pixel in the direction of the object's inside; for edge points.
+  struct LocalSurface {
+    bool valid = false;
+    Vec3 normal = Vec3::Zero();      ///< Camera frame.
+    float offset_m = 0.0F;           ///< normal . x = offset on the plane.
+    float normal_variance = 0.0F;
+    float cos_incidence = 0.0F;
+  };
+  [[nodiscard]] LocalSurface SurfaceAt(int u, int v) const noexcept {
+    const int column = (u - origin_u_) / block_px_;
+    const int row = (v - origin_v_) / block_px_;
+    if (u < origin_u_ || v < origin_v_ || column >= columns_ || row >= rows_) return {};
+    return surfaces_[Index(column, row)];
+  }
+
+  [[nodiscard]] float noise_std() const noexcept { return noise_std_; }
+  [[nodiscard]] int block_px() const noexcept { return block_px_; }
+
+ private:
+  struct Window {
+    int column_min, column_max, row_min, row_max;  // offsets in blocks, both included
+  };
+  // The whole neighbourhood first, then the halves and the quarters that contain the block itself.
+  static constexpr std::array<Window, 9> kWindows{{{-1, 1, -1, 1},
+                                                   {-1, 0, -1, 1},
+                                                   {0, 1, -1, 1},
+                                                   {-1, 1, -1, 0},
+                                                   {-1, 1, 0, 1},
+                                                   {-1, 0, -1, 0},
+                                                   {0, 1, -1, 0},
+                                                   {-1, 0, 0, 1},
+                                                   {0, 1, 0, 1}}};
+
+  [[nodiscard]] std::size_t Index(int column, int row) const noexcept {
+    return static_cast<std::size_t>(row * columns_ + column);
+  }
+  [[nodiscard]] const PixelMoments& block(int column, int row) const noexcept { return blocks_[Index(column, row)]; }
+
+  template <class Mask>
+  void LayOutGrid(const Mask& interior, const SamplerConfig& config) noexcept {
+    const PixelBox& box = interior.box();
+    const float pixels_per_block = static_cast<float>(interior.count()) / static_cast<float>(config.target_blocks);
+    block_px_ = std::clamp(static_cast<int>(std::lround(std::sqrt(pixels_per_block))), config.min_block_px,
+                           config.max_block_px);
+    do {
+      columns_ = (box.width() + block_px_ - 1) / block_px_;
+      rows_ = (box.height() + block_px_ - 1) / block_px_;
+    } while (columns_ * rows_ > Limits::kMaxBlocks && ++block_px_ > 0);
+    origin_u_ = box.u_min;
+    origin_v_ = box.v_min;
+    std::fill_n(blocks_.begin(), columns_ * rows_, PixelMoments{});
+    std::fill_n(surfaces_.begin(), columns_ * rows_, LocalSurface{});
+  }
+
+  template <class Mask>
+  void SumBlocks(const DepthReader& depth, const Mask& interior, Counters& counters) noexcept {
+    const float half = 0.5F * static_cast<float>(block_px_ - 1);
+    const PixelBox& box = interior.box();
+    for (int v = box.v_min; v < box.v_max; ++v) {
+      const int row = (v - origin_v_) / block_px_;
+      const float dv = static_cast<float>(v - origin_v_ - row * block_px_) - half;
+      interior.ForEachInRow(v, [&](int u) {
+        const float depth_m = depth.At(u, v);
+        if (depth_m <= 0.0F) {
+          ++counters.pixels_out_of_range;
+          return;
+        }
+        const int column = (u - origin_u_) / block_px_;
+        const float du = static_cast<float>(u - origin_u_ - column * block_px_) - half;
+        blocks_[Index(column, row)].Add(du, dv, 1.0F / depth_m);
+      });
+    }
+  }
+
+  [[nodiscard]] PixelMoments MergeWindow(int column, int row, const Window& window) const noexcept {
+    PixelMoments sum = block(column, row);
+    const auto step = static_cast<float>(block_px_);
+    for (int r = std::max(row + window.row_min, 0); r <= std::min(row + window.row_max, rows_ - 1); ++r) {
+      for (int c = std::max(column + window.column_min, 0); c <= std::min(column + window.column_max, columns_ - 1); ++c) {
+        if (c == column && r == row) continue;
+        sum.Merge(block(c, r), step * static_cast<float>(c - column), step * static_cast<float>(r - row));
+      }
+    }
+    return sum;
+  }
+
+  /// Sensor noise of 1/z per pixel: the median residual of small windows, which curvature and creases hardly disturb.
+  [[nodiscard]] float EstimateNoise() noexcept {
+    // A block of fewer than 4x4 pixels leaves too few degrees of freedom by itself.
+    const Window window = block_px_ >= 4 ? Window{0, 0, 0, 0} : Window{0, 1, 0, 1};
+    int count = 0;
+    const int stride = std::max(1, columns_ * rows_ / kNoiseBlocks);
+    for (int i = 0; i < columns_ * rows_ && count < kNoiseBlocks; i += stride) {
+      const int column = i % columns_;
+      const int row = i / columns_;
+      const float full = static_cast<float>(block_px_ * block_px_ * (window.row_max + 1) * (window.column_max + 1));
+      const PixelMoments sum = MergeWindow(column, row, window);
+      if (sum.n < 0.8F * full) continue;
+      const InverseDepthPlane plane = InverseDepthPlane::Fit(sum);
+      if (plane.valid) residuals_[static_cast<std::size_t>(count++)] = plane.residual_variance;
+    }
+    if (count == 0) return 0.0F;
+    const auto middle = residuals_.begin() + count / 2;
+    std::nth_element(residuals_.begin(), middle, residuals_.begin() + count);
+    return std::sqrt(*middle);
+  }
+
+  void FitBlock(const PinholeCamera& camera, const SamplerConfig& config, int column, int row, Samples& samples,
+                Counters& counters) noexcept {
+    const PixelMoments& own = block(column, row);
+    if (own.n == 0.0F) return;
+    const auto area = static_cast<float>(block_px_ * block_px_);
+    if (own.n < config.min_fill * area) {
+      ++counters.blocks_sparse;
+      return;
+    }
+    const InverseDepthPlane plane = BestPlane(config, column, row, own);
+    if (!plane.valid) {
+      ++counters.blocks_flying;
+      return;
+    }
+    SurfaceSample sample;
+    LocalSurface& surface = surfaces_[Index(column, row)];
+    if (!MakeSample(camera, config, column, row, own, plane, sample, surface)) {
+      ++counters.blocks_grazing;
+      return;
+    }
+    if (!samples.push_back(sample)) ++counters.samples_dropped;
+  }
+
+  [[nodiscard]] InverseDepthPlane BestPlane(const SamplerConfig& config, int column, int row,
+                                            const PixelMoments& own) const noexcept {
+    const float limit = config.max_residual_sigmas * config.max_residual_sigmas * noise_std_ * noise_std_;
+    const float own_u = own.u / own.n;
+    const float own_v = own.v / own.n;
+    const float own_w = own.w_reference + own.w / own.n;
+    InverseDepthPlane best;
+    for (std::size_t i = 0; i < kWindows.size(); ++i) {
+      const InverseDepthPlane plane = InverseDepthPlane::Fit(MergeWindow(column, row, kWindows[i]));
+      if (!plane.valid || plane.residual_variance > limit) continue;
+      const float deviation = own_w - plane.At(own_u, own_v);
+      if (deviation * deviation > 9.0F * noise_std_ * noise_std_ * (1.0F / own.n + plane.Leverage(own_u, own_v))) continue;
+      if (!best.valid || plane.residual_variance < best.residual_variance) best = plane;
+      if (i == 0) break;  // the whole window fits: no need to look at parts
+    }
+    return best;
+  }
+
+  [[nodiscard]] bool MakeSample(const PinholeCamera& camera, const SamplerConfig& config, int column, int row,
+                                const PixelMoments& own, const InverseDepthPlane& plane, SurfaceSample& sample,
+                                LocalSurface& surface) const noexcept {
+    const float half = 0.5F * static_cast<float>(block_px_ - 1);
+    const float du = own.u / own.n;
+    const float dv = own.v / own.n;
+    const float u = static_cast<float>(origin_u_ + column * block_px_) + half + du;
+    const float v = static_cast<float>(origin_v_ + row * block_px_) + half + dv;
+    const float w = plane.At(du, dv);
+    if (!(w > 0.0F)) return false;
+    // w = g . ray on the plane, so g is normal to it and 1 / |g| is its distance from the camera.
+    const Vec3 ray = camera.Ray(u, v);
+    const float gx = plane.slope_u * camera.fx_px;
+    const float gy = plane.slope_v * camera.fy_px;
+    const Vec3 g(gx, gy, w - gx * ray.x() - gy * ray.y());
+    const float g_norm = g.norm();
+    const float ray_norm = ray.norm();
+    const float depth_m = 1.0F / w;
+    sample.normal = -g / g_norm;
+    sample.position_m = depth_m * ray;
+    sample.cos_incidence = w / (g_norm * ray_norm);
+    if (sample.cos_incidence < config.min_cos_incidence) return false;
+    // dz = z^2 dw along the ray; projected onto the normal.
+    const float along_normal = depth_m * depth_m * ray_norm * sample.cos_incidence * noise_std_;
+    const float floor = config.sample_floor_m * config.sample_floor_m;
+    sample.variance_m2 = along_normal * along_normal / own.n + floor;
+    sample.fused_variance_m2 = along_normal * along_normal * plane.Leverage(du, dv) + floor;
+    // Slopes tilt the plane by f ds / |g|.
+    const float tilt_u = camera.fx_px / g_norm;
+    const float tilt_v = camera.fy_px / g_norm;
+    sample.normal_variance = 0.5F * noise_std_ * noise_std_ *
+                             (plane.inverse_uu * tilt_u * tilt_u + plane.inverse_vv * tilt_v * tilt_v);
+    surface = {true, sample.normal, sample.normal.dot(sample.position_m), sample.normal_variance, sample.cos_incidence};
+    return true;
+  }
+
+  static constexpr int kNoiseBlocks = 512;
+  std::array<PixelMoments, static_cast<std::size_t>(Limits::kMaxBlocks)> blocks_;
+  std::array<LocalSurface, static_cast<std::size_t>(Limits::kMaxBlocks)> surfaces_;
+  std::array<float, static_cast<std::size_t>(kNoiseBlocks)> residuals_;
+  int origin_u_ = 0;
+  int origin_v_ = 0;
+  int columns_ = 0;
+  int rows_ = 0;
+  int block_px_ = 1;
+  float noise_std_ = 0.0F;
+};
+
+}  // namespace disflow

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <array>
+
+#include "disflow/estimate.h"
+#include "disflow/field/cluster.h"
+#include "disflow/field/octree.h"
+
+namespace disflow {
+
+/// The bounded pools of octree nodes and local GPs, and who lies where. When a pool is full the cluster that was not
+/// observed for the longest time makes room.
+template <class Limits>
+class ClusterStore {
+ public:
+  using ClusterType = Cluster<Limits::kMaxSamplesPerCluster, Limits::kMaxTrainingSamples>;
+  using Tree = Octree<Limits::kMaxNodes>;
+  static_assert(Limits::kMaxClusters < kNoHandle);
+
+  void Start(float cell_size_m, float crease_cos) noexcept {
+    crease_cos_ = crease_cos;
+    tree_.Start(cell_size_m);
+    for (int i = 0; i < Limits::kMaxClusters; ++i) {
+      ClusterType& cluster = clusters_[static_cast<std::size_t>(i)];
+      cluster.used = false;
+      cluster.next = static_cast<Handle>(i + 1 < Limits::kMaxClusters ? i + 1 : kNoHandle);
+    }
+    free_head_ = 0;
+    used_ = 0;
+  }
+
+  [[nodiscard]] ClusterType& operator[](Handle handle) noexcept { return clusters_[handle]; }
+  [[nodiscard]] const ClusterType& operator[](Handle handle) const noexcept { return clusters_[handle]; }
+  [[nodiscard]] int size() const noexcept { return used_; }
+  [[nodiscard]] const Tree& tree() const noexcept { return tree_; }
+
+  /// visit(handle, cluster) for all clusters whose cells meet the ball, whatever their normals.
+  template <class Visitor>
+  void ForEachNear(const Vec3& x_m, float radius_m, Visitor&& visit) const noexcept {
+    const Vec3 reach = Vec3::Constant(radius_m);
+    tree_.ForEachLeafInBox(x_m - reach, x_m + reach, [&](const OctreeCell&, Handle leaf) {
+      for (Handle h = tree_.head(leaf); h != kNoHandle; h = clusters_[h].next) visit(h, clusters_[h]);
+    });
+  }
+
+  /// The cluster with the nearest centroid among those near x whose normal agrees, or kNoHandle.
+  [[nodiscard]] Handle FindNearest(const Vec3& x_m, const Vec3& normal, float radius_m, float min_cos) const noexcept {
+    Handle best = kNoHandle;
+    float best_squared = 0.0F;
+    ForEachNear(x_m, radius_m, [&](Handle handle, const ClusterType& cluster) {
+      if (cluster.mean_normal.dot(normal) < min_cos) return;
+      const float squared = (cluster.centroid_m - x_m).squaredNorm();
+      if (best == kNoHandle || squared < best_squared) {
+        best = handle;
+        best_squared = squared;
+      }
+    });
+    return best;
+  }
+
+  /// The cluster to which a sample belongs: same cell, same side of a crease. Made if need be.
+  /// @return kNoHandle if x is out of bounds or if no room could be made.
+  [[nodiscard]] Handle FindOrCreate(const Vec3& x_m, const Vec3& normal, std::uint32_t frame,
+                                    Counters& counters) noexcept {
+    OctreeCell cell;
+    if (!tree_.CellAt(x_m, cell)) {
+      ++counters.observations_out_of_bounds;
+      return kNoHandle;
+    }
+    Handle leaf = tree_.FindLeaf(cell);
+    if (leaf != kNoHandle) {
+      const Handle existing = SelectSide(leaf, normal);
+      if (existing != kNoHandle) return existing;
+    }
+    if (free_head_ == kNoHandle && !EvictStalest(frame, counters)) return kNoHandle;
+    leaf = tree_.FindOrCreateLeaf(cell);
+    if (leaf == kNoHandle && EvictStalest(frame, counters)) leaf = tree_.FindOrCreateLeaf(cell);
+    if (leaf == kNoHandle) {
+      ++counters.samples_refused;
+      return kNoHandle;
+    }
+    return Take(cell, leaf);
+  }
+
+  /// Accounts for a sample that was added to a cluster.
+  void OnSampleAdded(const ClusterType& cluster, const ModelSample& sample) noexcept {
+    tree_.UpdateFacets(cluster.cell, sample.position_m, sample.normal, 1.0F, crease_cos_);
+  }
+
+  template <class Visitor>
+  void ForEach(Visitor&& visit) const noexcept {
+    for (int i = 0; i < Limits::kMaxClusters; ++i) {
+      const ClusterType& cluster = clusters_[static_cast<std::size_t>(i)];
+      if (cluster.used) visit(static_cast<Handle>(i), cluster);
+    }
+  }
+
+ private:
+  [[nodiscard]] Handle SelectSide(Handle leaf, const Vec3& normal) const noexcept {
+    Handle best = kNoHandle;
+    float best_cos = crease_cos_;
+    for (Handle h = tree_.head(leaf); h != kNoHandle; h = clusters_[h].next) {
+      const float cosine = clusters_[h].mean_normal.dot(normal);
+      if (cosine > best_cos) {
+        best_cos = cosine;
+        best = h;
+      }
+    }
+    return best;
+  }
+
+  [[nodiscard]] Handle Take(const OctreeCell& cell, Handle leaf) noexcept {
+    const Handle handle = free_head_;
+    free_head_ = clusters_[handle].next;
+    ++used_;
+    clusters_[handle].Start(cell, leaf, tree_.head(leaf));
+    tree_.set_head(leaf, handle);
+    return handle;
+  }
+
+  /// Frees the cluster that was not observed for the longest time. Clusters seen in this very frame stay.
+  [[nodiscard]] bool EvictStalest(std::uint32_t frame, Counters& counters) noexcept {
+    Handle stalest = kNoHandle;
+    ForEach([&](Handle handle, const ClusterType& cluster) {
+      if (cluster.last_frame >= frame) return;
+      if (stalest == kNoHandle || cluster.last_frame < clusters_[stalest].last_frame) stalest = handle;
+    });
+    if (stalest == kNoHandle) {
+      ++counters.samples_refused;
+      return false;
+    }
+    ++counters.clusters_evicted;
+    Release(stalest);
+    return true;
+  }
+
+  void Release(Handle handle) noexcept {
+    ClusterType& cluster = clusters_[handle];
+    for (const ModelSample& sample : cluster.samples) {
+      tree_.UpdateFacets(cluster.cell, sample.position_m, sample.normal, -1.0F, crease_cos_);
+    }
+    if (tree_.head(cluster.leaf) == handle) {
+      tree_.set_head(cluster.leaf, cluster.next);
+    } else {
+      Handle previous = tree_.head(cluster.leaf);
+      while (clusters_[previous].next != handle) previous = clusters_[previous].next;
+      clusters_[previous].next = cluster.next;
+    }
+    tree_.Prune(cluster.leaf);
+    cluster.used = false;
+    cluster.next = free_head_;
+    free_head_ = handle;
+    --used_;
+  }
+
+  Tree tree_;
+  std::array<ClusterType, static_cast<std::size_t>(Limits::kMaxClusters)> clusters_;
+  float crease_cos_ = 0.0F;
+  Handle free_head_ = 0;
+  int used_ = 0;
+};
+
+}  // namespace disflow

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+
+#include "disflow/config.h"
+#include "disflow/depth/surface_sample.h"
+#include "disflow/field/cluster_store.h"
+
+namespace disflow {
+
+/// The object's surface as a signed distance field in the object frame: local Gaussian processes in an octree (section IV).
+/// Outside is positive.
+template <class Limits>
+class DistanceField {
+ public:
+  using Store = ClusterStore<Limits>;
+  using ClusterType = typename Store::ClusterType;
+
+  /// What registration needs to know of the field at an observed point.
+  struct Match {
+    bool found = false;
+    bool normal_mismatch = false;  ///< Surface is near, but none whose normal agrees.
+    float distance_m = 0.0F;       ///< d
+    Vec3 gradient = Vec3::Zero();  ///< grad d
+    float variance_m2 = 0.0F;      ///< V[d]
+  };
+
+  enum class Fusion : std::uint8_t { kAdded, kMerged, kFrozen, kRejected, kRefused };
+
+  void Start(const FieldConfig& config) noexcept {
+    config_ = config;
+    hyper_ = {config.length_scale_m, config.prior_gradient_std};
+    store_.Start(config.cell_size_m, config.crease_cos);
+    has_bounds_ = false;
+  }
+
+  [[nodiscard]] const Store& store() const noexcept { return store_; }
+  [[nodiscard]] const GpHyperparameters& hyperparameters() const noexcept { return hyper_; }
+  [[nodiscard]] const FieldConfig& config() const noexcept { return config_; }
+  [[nodiscard]] bool empty() const noexcept { return store_.size() == 0; }
+  [[nodiscard]] const Vec3& bounds_min_m() const noexcept { return bounds_min_m_; }
+  [[nodiscard]] const Vec3& bounds_max_m() const noexcept { return bounds_max_m_; }
+
+  /// Distance and gradient of the surface that an observation with this normal belongs to.
+  /// @param radius_m The nearest model sample is at most this far away, measured along the surface.
+  [[nodiscard]] Match FindMatch(const Vec3& x_m, const Vec3& normal, float radius_m, float min_cos) const noexcept {
+    Match match;
+    const Handle handle = store_.FindNearest(x_m, normal, radius_m, min_cos);
+    if (handle == kNoHandle) {
+      match.normal_mismatch = store_.FindNearest(x_m, normal, radius_m, -1.0F) != kNoHandle;
+      return match;
+    }
+    const ClusterType& cluster = store_[handle];
+    if (TangentialDistanceSquared(cluster, x_m) > radius_m * radius_m) return match;
+    Evaluate(cluster, x_m, match);
+    return match;
+  }
+
+  /// As FindMatch(), on the octree's coarse levels: a plane per side of a larger node. For far starts.
+  [[nodiscard]] Match FindCoarseMatch(const Vec3& x_m, const Vec3& normal, float min_cos) const noexcept {
+    Match match;
+    OctreeCell cell;
+    if (!store_.tree().CellAt(x_m, cell)) return match;
+    for (int up = 1; up <= Store::Tree::kCoarseLevels; ++up) {
+      const auto* facet = store_.tree().FindFacet(cell, up, normal, min_cos);
+      if (facet == nullptr) continue;
+      match.found = true;
+      match.gradient = facet->normal_sum.normalized();
+      match.distance_m = match.gradient.dot(x_m - facet->position_sum_m / facet->count);
+      const float size_m = config_.cell_size_m * static_cast<float>(1 << up);
+      // A facet stands for a curved piece of surface: about a tenth of its size is unknown.
+      match.variance_m2 = 0.01F * size_m * size_m;
+      return match;
+    }
+    return match;
+  }
+
+  /// Takes an observation into the model: averaged into the sample near it, else as a new sample.
+  /// @param observation In the object frame.
+  Fusion Insert(const SurfaceSample& observation, std::uint32_t frame, Counters& counters) noexcept {
+    const Match match = FindMatch(observation.position_m, observation.normal, config_.merge_radius_m * 2.0F,
+                                  config_.crease_cos);
+    if (match.found) {
+      const float sigma_m = std::sqrt(observation.fused_variance_m2 + match.variance_m2);
+      if (std::abs(match.distance_m) > config_.reject_floor_m + 3.0F * sigma_m) {
+        ++counters.observations_rejected;
+        return Fusion::kRejected;
+      }
+    }
+    Handle owner = kNoHandle;
+    ModelSample* nearest = FindSample(observation, owner);
+    if (nearest != nullptr) {
+      store_[owner].last_frame = frame;
+      return Merge(observation, owner, *nearest);
+    }
+    return Add(observation, frame, counters);
+  }
+
+  /// Trains up to `budget` local GPs, those that changed most first. @return How many were trained.
+  int Retrain(int budget) noexcept;
+
+  /// Whether any cluster waits for training.
+  [[nodiscard]] float EvaluateCluster(const ClusterType& cluster, const Vec3& x_m, Vec3& gradient) const noexcept {
+    Match match;
+    Evaluate(cluster, x_m, match);
+    gradient = match.gradient;
+    return match.distance_m;
+  }
+
+  /// Squared distance along the surface from x to the cluster's nearest sample.
+  [[nodiscard]] static float TangentialDistanceSquared(const ClusterType& cluster, const Vec3& x_m) noexcept {
+    float best = 1e9F;
+    for (const ModelSample& sample : cluster.samples) {
+      const Vec3 offset = x_m - sample.position_m;
+      const float along_normal = cluster.mean_normal.dot(offset);
+      best = std::fmin(best, offset.squaredNorm() - along_normal * along_normal);
+    }
+    return best;
+  }
+
+ private:
+  void Evaluate(const ClusterType& cluster, const Vec3& x_m, Match& match) const noexcept {
+    match.found = true;
+    if (cluster.gp.trained()) {
+      cluster.gp.Mean(x_m, match.distance_m, match.gradient);
+      match.variance_m2 = cluster.gp.SurfaceVariance();
+      return;
+    }
+    // Not trained yet: the prior alone, whose mean is the local plane m(x) = n^T (x - c).
+    match.gradient = cluster.mean_normal;
+    match.distance_m = cluster.mean_normal.dot(x_m - cluster.centroid_m);
+    const float prior_std_m = config_.prior_gradient_std * 0.5F * config_.cell_size_m;
+    match.variance_m2 = prior_std_m * prior_std_m;
+  }
+
+  /// The sample into which an observation is to be averaged, or null.
+  [[nodiscard]] ModelSample* FindSample(const SurfaceSample& observation, Handle& owner) noexcept {
+    constexpr float kSimilarNormalCos = 0.8F;
+    ModelSample* nearest = nullptr;
+    float nearest_squared = config_.merge_radius_m * config_.merge_radius_m;
+    store_.ForEachNear(observation.position_m, config_.merge_radius_m, [&](Handle handle, const ClusterType& cluster) {
+      if (cluster.mean_normal.dot(observation.normal) < 0.5F) return;
+      for (ModelSample& sample : store_[handle].samples) {
+        const float squared = (sample.position_m - observation.position_m).squaredNorm();
+        if (squared < nearest_squared && sample.normal.dot(observation.normal) > kSimilarNormalCos) {
+          nearest_squared = squared;
+          nearest = &sample;
+          owner = handle;
+        }
+      }
+    });
+    return nearest;
+  }
+
+  /// Kalman update of a sample's position along its normal, and of its normal.
+  [[nodiscard]] Fusion Merge(const SurfaceSample& observation, Handle owner, ModelSample& sample) noexcept {
+    const bool better = observation.fused_variance_m2 < 0.25F * sample.variance_m2;
+    if (sample.observations >= config_.freeze_after && !better) return Fusion::kFrozen;
+    const Vec3 offset = observation.position_m - sample.position_m;
+    const float cosine = observation.normal.dot(sample.normal);
+    // Two points of an arc lie on a chord that is perpendicular to the mean of their normals.
+    const float shift_m = offset.dot(observation.normal + sample.normal) / (1.0F + cosine);
+    const float tilt_variance = 0.25F * offset.squaredNorm() * observation.normal_variance;
+    const float gain = sample.variance_m2 / (sample.variance_m2 + observation.fused_variance_m2 + tilt_variance);
+    sample.position_m += gain * shift_m * sample.normal;
+    sample.variance_m2 *= 1.0F - gain;
+    const float normal_gain = sample.normal_variance / (sample.normal_variance + observation.normal_variance + 1e-6F);
+    sample.normal = (sample.normal + normal_gain * (observation.normal - sample.normal)).normalized();
+    sample.normal_variance *= 1.0F - normal_gain;
+    if (sample.observations < 65535) ++sample.observations;
+    MarkDirty(sample, owner, 1.0F);
+    return Fusion::kMerged;
+  }
+
+  [[nodiscard]] Fusion Add(const SurfaceSample& observation, std::uint32_t frame, Counters& counters) noexcept {
+    const Handle handle = store_.FindOrCreate(observation.position_m, observation.normal, frame, counters);
+    if (handle == kNoHandle) return Fusion::kRefused;
+    ClusterType& cluster = store_[handle];
+    cluster.last_frame = frame;
+    const ModelSample sample{observation.position_m, observation.normal, observation.fused_variance_m2,
+                             observation.normal_variance, 1};
+    if (!cluster.samples.push_back(sample)) {
+      ++counters.samples_refused;
+      return Fusion::kRefused;
+    }
+    cluster.UpdateMeans();
+    store_.OnSampleAdded(cluster, sample);
+    ExtendBounds(sample.position_m);
+    MarkDirty(sample, handle, 1.0F);
+    return Fusion::kAdded;
+  }
+
+  /// The sample's own cluster has changed, and so have those that train on it across their border.
+  void MarkDirty(const ModelSample& sample, Handle owner, float change) noexcept {
+    constexpr float kNeighbourShare = 0.3F;
+    store_.ForEachNear(sample.position_m, config_.overlap_m, [&](Handle handle, const ClusterType& cluster) {
+      if (handle == owner) {
+        store_[handle].dirtiness += change;
+      } else if (cluster.mean_normal.dot(sample.normal) > config_.crease_cos) {
+        store_[handle].dirtiness += kNeighbourShare * change;
+      }
+    });
+  }
+
+  void ExtendBounds(const Vec3& x_m) noexcept {
+    bounds_min_m_ = has_bounds_ ? Vec3(bounds_min_m_.cwiseMin(x_m)) : x_m;
+    bounds_max_m_ = has_bounds_ ? Vec3(bounds_max_m_.cwiseMax(x_m)) : x_m;
+    has_bounds_ = true;
+  }
+
+  using Candidates = FixedVector<GpTrainingSample, 96>;
+  void GatherCandidates(const ClusterType& cluster, bool mature_only, Candidates& candidates) const noexcept;
+  [[nodiscard]] static int SpreadSelection(Candidates& candidates, const Vec3& center_m) noexcept;
+  void TrainCluster(ClusterType& cluster) noexcept;
+
+  Store store_;
+  GpWorkspace<Limits::kMaxTrainingSamples> workspace_;
+  FieldConfig config_{};
+  GpHyperparameters hyper_{};
+  Vec3 bounds_min_m_ = Vec3::Zero();
+  Vec3 bounds_max_m_ = Vec3::Zero();
+  bool has_bounds_ = false;
+};
+
+}  // namespace disflow
+
+#include "disflow/field/distance_field_training.h"

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "disflow/types.h"
+
+namespace disflow {
+
+/// Index of a pool element; pools hold fewer than kNoHandle elements.
+using Handle = std::uint16_t;
+inline constexpr Handle kNoHandle = 0xFFFF;
+
+/// Integer coordinates of a leaf cell.
+struct OctreeCell {
+  int x = 0;
+  int y = 0;
+  int z = 0;
+};
+
+/// Octree over a cube around the object frame's origin, in a bounded pool of nodes (section IV, "Scalability via Octree").
+/// Leaves are cells of fixed size that head a list of local GPs; the two levels above hold running averages of the samples
+/// below them (facets), which give a coarse surface for far starts.
+template <int kMaxNodes>
+class Octree {
+  static_assert(kMaxNodes < kNoHandle);
+
+ public:
+  static constexpr int kDepth = 6;                  ///< Levels below the root: 64 cells along each edge.
+  static constexpr int kCellsPerEdge = 1 << kDepth;
+  static constexpr int kFacetsPerNode = 3;
+  static constexpr int kCoarseLevels = 2;
+
+  using Cell = OctreeCell;
+
+  /// Mean surface of one side (similar normals) within a coarse node.
+  struct Facet {
+    Vec3 position_sum_m;
+    Vec3 normal_sum;
+    float count;
+  };
+
+  void Start(float cell_size_m) noexcept {
+    cell_size_m_ = cell_size_m;
+    inverse_cell_size_ = 1.0F / cell_size_m;
+    for (int i = 0; i < kMaxNodes; ++i) {
+      nodes_[static_cast<std::size_t>(i)].parent = static_cast<Handle>(i + 1 < kMaxNodes ? i + 1 : kNoHandle);
+    }
+    free_head_ = 0;
+    used_ = 0;
+    root_ = Take(kNoHandle, 0);
+  }
+
+  [[nodiscard]] float cell_size_m() const noexcept { return cell_size_m_; }
+  [[nodiscard]] int used_nodes() const noexcept { return used_; }
+
+  /// @return false when x is outside of the mapped cube.
+  [[nodiscard]] bool CellAt(const Vec3& x_m, Cell& cell) const noexcept {
+    const Vec3 scaled = x_m * inverse_cell_size_ + Vec3::Constant(0.5F * kCellsPerEdge);
+    // Written so that NaN is outside too.
+    if (!((scaled.array() >= 0.0F).all() && (scaled.array() < static_cast<float>(kCellsPerEdge)).all())) return false;
+    cell = {static_cast<int>(scaled.x()), static_cast<int>(scaled.y()), static_cast<int>(scaled.z())};
+    return true;
+  }
+  [[nodiscard]] Vec3 CellMin(const Cell& cell) const noexcept {
+    return (Vec3(static_cast<float>(cell.x), static_cast<float>(cell.y), static_cast<float>(cell.z)) -
+            Vec3::Constant(0.5F * kCellsPerEdge)) *
+           cell_size_m_;
+  }
+
+  /// @return The leaf, or kNoHandle if nothing was ever stored there.
+  [[nodiscard]] Handle FindLeaf(const Cell& cell) const noexcept { return FindAtLevel(cell, kDepth); }
+
+  /// The node of a given level (0 = root, kDepth = leaf) that contains a cell.
+  [[nodiscard]] Handle FindAtLevel(const Cell& cell, int level) const noexcept {
+    Handle node = root_;
+    for (int bit = kDepth - 1; bit >= kDepth - level && node != kNoHandle; --bit) {
+      node = at(node).child[Octant(cell, bit)];
+    }
+    return node;
+  }
+
+  /// @return kNoHandle if the node pool is exhausted.
+  [[nodiscard]] Handle FindOrCreateLeaf(const Cell& cell) noexcept {
+    Handle node = root_;
+    for (int bit = kDepth - 1; bit >= 0; --bit) {
+      Handle next = at(node).child[Octant(cell, bit)];
+      if (next == kNoHandle) {
+        next = Take(node, static_cast<std::uint8_t>(Octant(cell, bit)));
+        if (next == kNoHandle) {
+          Prune(node);
+          return kNoHandle;
+        }
+        at(node).child[Octant(cell, bit)] = next;
+      }
+      node = next;
+    }
+    return node;
+  }
+
+  /// Head of a leaf's list of local GPs.
+  [[nodiscard]] Handle head(Handle leaf) const noexcept { return at(leaf).first_cluster; }
+  void set_head(Handle leaf, Handle cluster) noexcept { at(leaf).first_cluster = cluster; }
+
+  /// Gives a node back to the pool, and its ancestors, as long as they hold nothing.
+  void Prune(Handle node) noexcept {
+    while (node != root_ && node != kNoHandle && IsEmpty(at(node))) {
+      const Handle parent = at(node).parent;
+      at(parent).child[at(node).octant] = kNoHandle;
+      at(node).parent = free_head_;
+      free_head_ = node;
+      --used_;
+      node = parent;
+    }
+  }
+
+  /// Calls visit(cell, leaf) for every existing leaf that meets the box [low, high]; the caller bounds the box.
+  template <class Visitor>
+  void ForEachLeafInBox(const Vec3& low_m, const Vec3& high_m, Visitor&& visit) const noexcept {
+    const Cell low = ClampedCell(low_m);
+    const Cell high = ClampedCell(high_m);
+    for (int z = low.z; z <= high.z; ++z) {
+      for (int y = low.y; y <= high.y; ++y) {
+        for (int x = low.x; x <= high.x; ++x) {
+          const Cell cell{x, y, z};
+          const Handle leaf = FindLeaf(cell);
+          if (leaf != kNoHandle) visit(cell, leaf);
+        }
+      }
+    }
+  }
+
+  /// Calls visit(cell, leaf) for every leaf, in a fixed order.
+  template <class Visitor>
+  void ForEachLeaf(Visitor&& visit) const noexcept {
+    VisitBelow(root_, 0, Cell{}, visit);
+  }
+
+  /// Adds (weight +1) or removes (-1) a sample's share in the coarse surface of the levels above its leaf.
+  void UpdateFacets(const Cell& cell, const Vec3& position_m, const Vec3& normal, float weight,
+                    float crease_cos) noexcept {
+    for (int up = 1; up <= kCoarseLevels; ++up) {
+      const Handle node = FindAtLevel(cell, kDepth - up);
+      if (node == kNoHandle) continue;
+      Facet* facet = SelectFacet(node, normal, crease_cos, weight > 0.0F);
+      if (facet == nullptr) continue;
+      facet->position_sum_m += weight * position_m;
+      facet->normal_sum += weight * normal;
+      facet->count += weight;
+      if (facet->count < 0.5F) *facet = EmptyFacet();
+    }
+  }
+
+  /// The best agreeing facet of the coarse node `up` levels above a cell, or null.
+  [[nodiscard]] const Facet* FindFacet(const Cell& cell, int up, const Vec3& normal, float min_cos) const noexcept {
+    const Handle node = FindAtLevel(cell, kDepth - up);
+    if (node == kNoHandle) return nullptr;
+    const Facet* best = nullptr;
+    float best_cos = min_cos;
+    for (const Facet& facet : facets_[node]) {
+      if (facet.count <= 0.0F) continue;
+      const float cosine = facet.normal_sum.dot(normal) / facet.normal_sum.norm();
+      if (cosine > best_cos) {
+        best_cos = cosine;
+        best = &facet;
+      }
+    }
+    return best;
+  }
+
+ private:
+  struct Node {
+    std::array<Handle, 8> child;
+    Handle parent;  ///< Next free node while in the free list.
+    Handle first_cluster;
+    std::uint8_t octant;  ///< Place among the parent's children.
+  };
+
+  [[nodiscard]] static Facet EmptyFacet() noexcept { return {Vec3::Zero(), Vec3::Zero(), 0.0F}; }
+  [[nodiscard]] Node& at(Handle node) noexcept { return nodes_[node]; }
+  [[nodiscard]] const Node& at(Handle node) const noexcept { return nodes_[node]; }
+
+  [[nodiscard]] static std::size_t Octant(const Cell& cell, int bit) noexcept {
+    return static_cast<std::size_t>(((cell.x >> bit) & 1) | (((cell.y >> bit) & 1) << 1) | (((cell.z >> bit) & 1) << 2));
+  }
+
+  [[nodiscard]] Cell ClampedCell(const Vec3& x_m) const noexcept {
+    const auto clamp = [this](float coordinate_m) {
+      const float scaled = coordinate_m * inverse_cell_size_ + 0.5F * kCellsPerEdge;
+      return static_cast<int>(std::fmin(std::fmax(scaled, 0.0F), static_cast<float>(kCellsPerEdge - 1)));
+    };
+    return {clamp(x_m.x()), clamp(x_m.y()), clamp(x_m.z())};
+  }
+
+  [[nodiscard]] static bool IsEmpty(const Node& node) noexcept {
+    if (node.first_cluster != kNoHandle) return false;
+    for (const Handle child : node.child) {
+      if (child != kNoHandle) return false;
+    }
+    return true;
+  }
+
+  [[nodiscard]] Handle Take(Handle parent, std::uint8_t octant) noexcept {
+    const Handle node = free_head_;
+    if (node == kNoHandle) return kNoHandle;
+    free_head_ = at(node).parent;
+    ++used_;
+    at(node).child.fill(kNoHandle);
+    at(node).parent = parent;
+    at(node).first_cluster = kNoHandle;
+    at(node).octant = octant;
+    facets_[node].fill(EmptyFacet());
+    return node;
+  }
+
+  [[nodiscard]] Facet* SelectFacet(Handle node, const Vec3& normal, float crease_cos, bool may_create) noexcept {
+    Facet* unused = nullptr;
+    Facet* best = nullptr;
+    float best_cos = crease_cos;
+    for (Facet& facet : facets_[node]) {
+      if (facet.count <= 0.0F) {
+        if (unused == nullptr) unused = &facet;
+        continue;
+      }
+      const float cosine = facet.normal_sum.dot(normal) / facet.normal_sum.norm();
+      if (cosine > best_cos) {
+        best_cos = cosine;
+        best = &facet;
+      }
+    }
+    return best != nullptr || !may_create ? best : unused;
+  }
+
+  // Recursion depth is kDepth, known at compile time.
+  template <class Visitor>
+  void VisitBelow(Handle node, int level, const Cell& cell, Visitor& visit) const noexcept {
+    if (level == kDepth) {
+      visit(cell, node);
+      return;
+    }
+    for (std::size_t octant = 0; octant < 8; ++octant) {
+      const Handle child = at(node).child[octant];
+      if (child == kNoHandle) continue;
+      const auto o = static_cast<int>(octant);
+      VisitBelow(child, level + 1, Cell{2 * cell.x + (o & 1), 2 * cell.y + ((o >> 1) & 1), 2 * cell.z + (o >> 2)},
+                 visit);
+    }
+  }
+
+  std::array<Node, static_cast<std::size_t>(kMaxNodes)> nodes_;
+  std::array<std::array<Facet, static_cast<std::size_t>(kFacetsPerNode)>, static_cast<std::size_t>(kMaxNodes)> facets_;
+  float cell_size_m_ = 0.0F;
+  float inverse_cell_size_ = 0.0F;
+  Handle root_ = 0;
+  Handle free_head_ = 0;
+  int used_ = 0;
+};
+
+}  // namespace disflow

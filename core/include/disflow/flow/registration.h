@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "disflow/config.h"
+#include "disflow/depth/edge_sampler.h"
+#include "disflow/field/distance_field.h"
+#include "disflow/field/edge_map.h"
+#include "disflow/flow/normal_equations.h"
+
+namespace disflow {
+
+/// Registers observed samples to the distance field (sections V-B to V-D).
+///
+/// Additions to the paper: weights 1/sigma^2 with a robust kernel whose width shrinks from step to step (graduated
+/// non-convexity), gates on normal agreement and matching distance, rotation about the observed centroid, occluding edges.
+template <class Limits>
+class Registration {
+ public:
+  using Field = DistanceField<Limits>;
+  using Edges = typename EdgeSampler<Limits>::Edges;
+  using Model = EdgeMap<Limits::kMaxModelEdges>;
+  using Samples = FixedVector<SurfaceSample, Limits::kMaxRegistrationPoints>;
+
+  struct Result {
+    bool solved = false;
+    PoseObjectFromCamera T_oc;
+    Mat6 information = Mat6::Zero();     ///< H at the end: of (translation, rotation) about center_m, object frame.
+    Vec3 center_m = Vec3::Zero();        ///< Centre of rotation, object frame.
+    int iterations = 0;
+    int inliers = 0;
+    int edge_inliers = 0;
+    float rms_m = 0.0F;
+    int unmatched = 0;
+    int truncated = 0;
+    int normal_mismatch = 0;
+  };
+
+  /// Takes an even subset of a frame's samples (camera frame) as the points to register.
+  template <class FrameSamples>
+  void SetObservations(const FrameSamples& samples, const Edges& edges) noexcept {
+    samples_.clear();
+    const int wanted = std::min(samples.size(), Limits::kMaxRegistrationPoints);
+    center_c_.setZero();
+    for (int i = 0; i < wanted; ++i) {
+      const SurfaceSample& sample = samples[static_cast<int>(static_cast<std::int64_t>(i) * samples.size() / wanted)];
+      (void)samples_.push_back(sample);
+      center_c_ += sample.position_m;
+    }
+    if (wanted > 0) center_c_ /= static_cast<float>(wanted);
+    edges_ = &edges;
+  }
+  [[nodiscard]] const Vec3& center_c() const noexcept { return center_c_; }
+  [[nodiscard]] int size() const noexcept { return samples_.size(); }
+
+  /// Share of the observed points that the model explains under a pose, 0..1. Unmatched points count 0.
+  [[nodiscard]] float Score(const Field& field, const RegistrationConfig& config,
+                            const PoseObjectFromCamera& T_oc) const noexcept {
+    if (samples_.empty()) return 0.0F;
+    constexpr float kTolerance_m = 0.003F;
+    const int wanted = std::min(config.score_points, samples_.size());
+    float sum = 0.0F;
+    for (int i = 0; i < wanted; ++i) {
+      const SurfaceSample& sample = samples_[i * samples_.size() / wanted];
+      const auto match = field.FindMatch(T_oc * sample.position_m, T_oc.rotation() * sample.normal,
+                                         config.match_radius_m, config.min_normal_cos);
+      if (!match.found) continue;
+      const float expected = kTolerance_m * kTolerance_m + sample.variance_m2 + match.variance_m2;
+      sum += expected / (expected + match.distance_m * match.distance_m);
+    }
+    return sum / static_cast<float>(wanted);
+  }
+
+  /// Iterates closed-form steps from T_start.
+  /// @param T_predicted Centre of the temporal regulariser.
+  [[nodiscard]] Result Align(const Field& field, const Model& model_edges, const RegistrationConfig& config,
+                             const PoseObjectFromCamera& T_start, const PoseObjectFromCamera& T_predicted,
+                             int iterations) const noexcept {
+    Result result;
+    result.T_oc = T_start;
+    float scale_m = config.robust_scale_start_m;
+    for (int i = 0; i < iterations; ++i, scale_m *= 0.5F) {
+      const NormalEquations equations = Linearise(field, model_edges, config, T_predicted, scale_m, result);
+      Vec6 xi;
+      if (equations.inliers < kFewestInliers || !equations.Solve(config.damping, xi)) {
+        result.solved = false;
+        return result;
+      }
+      result.T_oc = Step(xi, result.center_m, result.T_oc);
+      result.iterations = i + 1;
+      result.solved = true;
+      result.information = equations.h;
+      if (i + 1 >= kFewestSteps && xi.template head<3>().norm() < kConverged_m &&
+          xi.template tail<3>().norm() < kConverged_rad) {
+        break;
+      }
+    }
+    return result;
+  }
+
+ private:
+  static constexpr int kFewestInliers = 12;
+  static constexpr int kFewestSteps = 5;
+  static constexpr float kConverged_m = 1e-5F;
+  static constexpr float kConverged_rad = 1e-4F;
+
+  /// T <- exp(xi) T, with the rotation about a centre instead of the origin: better conditioned in float.
+  [[nodiscard]] static PoseObjectFromCamera Step(const Vec6& xi, const Vec3& center_m,
+                                                 const PoseObjectFromCamera& T_oc) noexcept {
+    const Vec3 theta = xi.tail<3>();
+    const Mat3 turn = ExpSo3(theta);
+    return PoseObjectFromCamera(Mat3(turn * T_oc.rotation()),
+                                Vec3(turn * (T_oc.translation() - center_m) + center_m + xi.head<3>()))
+        .Normalized();
+  }
+
+  [[nodiscard]] NormalEquations Linearise(const Field& field, const Model& model_edges,
+                                          const RegistrationConfig& config, const PoseObjectFromCamera& T_predicted,
+                                          float scale_m, Result& result) const noexcept {
+    NormalEquations equations;
+    result.center_m = result.T_oc * center_c_;
+    result.unmatched = result.truncated = result.normal_mismatch = 0;
+    for (const SurfaceSample& sample : samples_) AddSample(field, config, sample, scale_m, result, equations);
+    for (const EdgePoint& edge : *edges_) AddEdge(model_edges, config, edge, scale_m, result, equations);
+    result.inliers = equations.inliers;
+    result.edge_inliers = equations.edge_inliers;
+    result.rms_m = std::sqrt(equations.weighted_square_sum / std::fmax(equations.weight_sum, 1e-9F));
+
+    Vec6 deviation;  // from the predicted pose, about the same centre
+    deviation.head<3>() = result.center_m - T_predicted * center_c_;
+    deviation.tail<3>() = LogSo3(Mat3(result.T_oc.rotation() * T_predicted.rotation().transpose()));
+    equations.AddPrior(deviation, config.temporal_std_m, config.temporal_std_rad);
+    return equations;
+  }
+
+  void AddSample(const Field& field, const RegistrationConfig& config, const SurfaceSample& sample, float scale_m,
+                 Result& result, NormalEquations& equations) const noexcept {
+    const Vec3 x_o = result.T_oc * sample.position_m;
+    const Vec3 n_o = result.T_oc.rotation() * sample.normal;
+    auto match = field.FindMatch(x_o, n_o, config.match_radius_m, config.min_normal_cos);
+    if (!match.found) {
+      if (match.normal_mismatch) {
+        ++result.normal_mismatch;
+        return;
+      }
+      // Far from any local GP: let the coarse levels of the octree pull while the kernel is wide.
+      if (scale_m > kCoarseScale_m) match = field.FindCoarseMatch(x_o, n_o, config.min_normal_cos);
+      if (!match.found) {
+        ++result.unmatched;
+        return;
+      }
+    }
+    if (std::abs(match.distance_m) > config.truncation_m) {  // residual truncation
+      ++result.truncated;
+      return;
+    }
+    const float norm = match.gradient.norm();
+    if (norm < config.min_gradient_norm) {
+      ++result.unmatched;
+      return;
+    }
+    // d / |grad d| is the distance to first order; |grad d| < 1 tells how little is known: the gradient weighting.
+    const float residual_m = match.distance_m / norm;
+    const float variance_m2 = sample.variance_m2 + match.variance_m2;
+    const float sigma_m = std::sqrt(variance_m2);
+    const float robust = GemanMcClure(residual_m, std::fmax(scale_m, config.robust_scale_sigmas * sigma_m));
+    const float weight = robust * std::fmin(norm, 1.0F) / variance_m2;
+    equations.Add(x_o - result.center_m, match.gradient / norm, residual_m, weight);
+    equations.weighted_square_sum += robust * residual_m * residual_m;
+    equations.weight_sum += robust;
+    if (robust > 0.25F) ++equations.inliers;
+  }
+
+  void AddEdge(const Model& model_edges, const RegistrationConfig& config, const EdgePoint& point, float scale_m,
+               const Result& result, NormalEquations& equations) const noexcept {
+    const Mat3& r = result.T_oc.rotation();
+    const EdgePoint moved{result.T_oc * point.position_m, r * point.direction, r * point.normal, r * point.ray,
+                          point.pixel_m};
+    const auto* edge = model_edges.FindNearest(moved, config.match_radius_m);
+    if (edge == nullptr) return;
+    // The outline in the image moves only across the ray and across the edge.
+    const Vec3 across = moved.ray.cross(edge->direction);
+    const float sine = across.norm();
+    if (sine < 0.3F) return;  // the edge points at the camera
+    const Vec3 gradient = across / sine;
+    const float residual_m = gradient.dot(moved.position_m - edge->position_m);
+    const float sigma_m = config.edge_std_px * point.pixel_m;
+    const float robust = GemanMcClure(residual_m, std::fmax(scale_m, config.robust_scale_sigmas * sigma_m));
+    equations.Add(moved.position_m - result.center_m, gradient, residual_m, robust / (sigma_m * sigma_m));
+    if (robust > 0.25F) ++equations.edge_inliers;
+  }
+
+  static constexpr float kCoarseScale_m = 0.002F;
+  Samples samples_;
+  Vec3 center_c_ = Vec3::Zero();
+  const Edges* edges_ = nullptr;
+};
+
+}  // namespace disflow

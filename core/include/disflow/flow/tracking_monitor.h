@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "disflow/config.h"
+#include "disflow/estimate.h"
+
+namespace disflow {
+
+/// Judges every frame: initialising, tracking, degraded, lost, recovered, and a quality from 0 to 100.
+class TrackingMonitor {
+ public:
+  /// What one frame offered as evidence.
+  struct Evidence {
+    bool registered = false;
+    float score = 0.0F;     ///< Share of observed samples that the model explains.
+    int inliers = 0;
+    int points = 0;         ///< Samples that were registered.
+    float position_std_m = 0.0F;
+    float rotation_std_rad = 0.0F;
+  };
+
+  void Start(const MonitorConfig& config, StampNs stamp_ns) noexcept;
+  /// Whether a registration result is good enough to be believed at all.
+  [[nodiscard]] bool Accepts(const Evidence& evidence) const noexcept;
+  void Update(const Evidence& evidence, StampNs stamp_ns) noexcept;
+
+  [[nodiscard]] TrackingState state() const noexcept { return state_; }
+  [[nodiscard]] std::uint8_t quality() const noexcept { return quality_; }
+  /// Lost for so long that the object should be started anew.
+  [[nodiscard]] bool ShouldRestart(StampNs stamp_ns) const noexcept;
+
+ private:
+  static constexpr int kInitialFrames = 5;
+  static constexpr int kRecoveryFrames = 5;
+
+  [[nodiscard]] std::uint8_t Grade(const Evidence& evidence) const noexcept;
+
+  MonitorConfig config_{};
+  TrackingState state_ = TrackingState::kInitialising;
+  std::uint8_t quality_ = 0;
+  int frames_in_state_ = 0;
+  int missed_ = 0;
+  StampNs last_registered_ns_ = 0;
+};
+
+}  // namespace disflow

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+
+#include "disflow/config.h"
+#include "disflow/estimate.h"
+#include "disflow/geometry/transform.h"
+
+namespace disflow {
+
+/// Kalman filter with constant acceleration, driven by registered poses; yields velocity at the frame's capture time.
+/// A finite difference of poses would lag by half a frame. Bar-Shalom et al., "Estimation with Applications to Tracking
+/// and Navigation", section 6.2.3 (white-noise jerk).
+///
+/// State in camera axes: pose (position of the object's origin, rotation), twist, acceleration; six components each.
+class TwistFilter {
+ public:
+  void Start(const TwistFilterConfig& config, StampNs stamp_ns, const PoseCameraFromObject& T_co,
+             const Mat6& pose_covariance) noexcept;
+
+  /// Moves the state to a later stamp.
+  void Predict(StampNs stamp_ns) noexcept;
+  /// Corrects the state with a pose registered at the current stamp.
+  void Update(const PoseCameraFromObject& T_co, const Mat6& pose_covariance) noexcept;
+  /// Where the object would be at a stamp if it kept its velocity; does not change the state.
+  [[nodiscard]] PoseCameraFromObject Extrapolate(StampNs stamp_ns) const noexcept;
+  /// Forgets velocity and acceleration, as after a jump of the pose.
+  void RestartMotion() noexcept;
+
+  [[nodiscard]] const PoseCameraFromObject& T_co() const noexcept { return T_co_; }
+  [[nodiscard]] Twist twist() const noexcept { return {twist_.head<3>(), twist_.tail<3>()}; }
+  [[nodiscard]] const Mat6& pose_covariance() const noexcept { return covariance_[0][0]; }
+  [[nodiscard]] const Mat6& twist_covariance() const noexcept { return covariance_[1][1]; }
+  [[nodiscard]] StampNs stamp_ns() const noexcept { return stamp_ns_; }
+
+ private:
+  static constexpr std::size_t kBlocks = 3;  // pose, twist, acceleration
+  using Covariance = std::array<std::array<Mat6, kBlocks>, kBlocks>;
+
+  void AddProcessNoise(float dt_s) noexcept;
+
+  TwistFilterConfig config_{};
+  StampNs stamp_ns_ = 0;
+  PoseCameraFromObject T_co_;
+  Vec6 twist_ = Vec6::Zero();
+  Vec6 acceleration_ = Vec6::Zero();
+  Covariance covariance_;
+};
+
+}  // namespace disflow

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "disflow/flow/tracking_monitor.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace disflow {
+namespace {
+
+// Standard deviations at which a pose is worth half: a gripper's tolerance.
+constexpr float kPositionStdHalf_m = 0.005F;
+constexpr float kRotationStdHalf_rad = 0.05F;
+constexpr float kFewestInlierShare = 0.15F;
+
+}  // namespace
+
+void TrackingMonitor::Start(const MonitorConfig& config, StampNs stamp_ns) noexcept {
+  config_ = config;
+  state_ = TrackingState::kInitialising;
+  quality_ = 50;
+  frames_in_state_ = 0;
+  missed_ = 0;
+  last_registered_ns_ = stamp_ns;
+}
+
+bool TrackingMonitor::Accepts(const Evidence& evidence) const noexcept {
+  return evidence.registered && evidence.score >= config_.lost_score &&
+         static_cast<float>(evidence.inliers) >= kFewestInlierShare * static_cast<float>(evidence.points);
+}
+
+std::uint8_t TrackingMonitor::Grade(const Evidence& evidence) const noexcept {
+  const float position = 1.0F / (1.0F + evidence.position_std_m / kPositionStdHalf_m);
+  const float rotation = 1.0F / (1.0F + evidence.rotation_std_rad / kRotationStdHalf_rad);
+  const float grade = 100.0F * std::clamp(evidence.score, 0.0F, 1.0F) * std::sqrt(position * rotation);
+  return static_cast<std::uint8_t>(std::clamp(std::lround(grade), 1L, 100L));
+}
+
+void TrackingMonitor::Update(const Evidence& evidence, StampNs stamp_ns) noexcept {
+  const TrackingState before = state_;
+  if (!Accepts(evidence)) {
+    ++missed_;
+    quality_ = static_cast<std::uint8_t>(quality_ / 2);
+    if (missed_ >= config_.lost_after_frames) {
+      state_ = TrackingState::kLost;
+      quality_ = 0;
+    } else if (state_ != TrackingState::kLost) {
+      state_ = TrackingState::kDegraded;
+    }
+  } else {
+    missed_ = 0;
+    last_registered_ns_ = stamp_ns;
+    quality_ = Grade(evidence);
+    const bool good = evidence.score >= config_.degraded_score;
+    if (state_ == TrackingState::kLost) {
+      state_ = TrackingState::kRecovered;
+    } else if (state_ == TrackingState::kInitialising || state_ == TrackingState::kRecovered) {
+      const int needed = state_ == TrackingState::kInitialising ? kInitialFrames : kRecoveryFrames;
+      if (frames_in_state_ + 1 >= needed) state_ = good ? TrackingState::kTracking : TrackingState::kDegraded;
+    } else {
+      state_ = good ? TrackingState::kTracking : TrackingState::kDegraded;
+    }
+  }
+  frames_in_state_ = state_ == before ? frames_in_state_ + 1 : 0;
+}
+
+bool TrackingMonitor::ShouldRestart(StampNs stamp_ns) const noexcept {
+  const double lost_s = static_cast<double>(stamp_ns - last_registered_ns_) * 1e-9;
+  return state_ == TrackingState::kLost && lost_s > static_cast<double>(config_.reinitialise_after_s);
+}
+
+}  // namespace disflow

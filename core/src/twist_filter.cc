@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "disflow/flow/twist_filter.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+
+namespace disflow {
+namespace {
+
+// What is believed of an object's motion before it was seen to move.
+constexpr float kInitialSpeedStd_mps = 0.5F;
+constexpr float kInitialRateStd_rps = 3.0F;
+constexpr float kInitialAccelerationStd_mps2 = 3.0F;
+constexpr float kInitialAngularAccelerationStd_rps2 = 20.0F;
+// Beyond this gap the extrapolation by velocity is worthless; the covariance says so anyway.
+constexpr float kMaxStep_s = 2.0F;
+
+Mat6 Diagonal(float linear, float angular) noexcept {
+  Vec6 diagonal;
+  diagonal << Vec3::Constant(linear), Vec3::Constant(angular);
+  return diagonal.asDiagonal();
+}
+
+float Seconds(StampNs from_ns, StampNs to_ns) noexcept {
+  const double seconds = static_cast<double>(to_ns - from_ns) * 1e-9;
+  return std::clamp(static_cast<float>(seconds), 0.0F, kMaxStep_s);
+}
+
+PoseCameraFromObject Moved(const PoseCameraFromObject& T_co, const Vec6& displacement) noexcept {
+  // Position and rotation are moved apart: the twist is that of the object's origin, not of the camera's.
+  const Vec3 rotation_vector = displacement.tail<3>();
+  return PoseCameraFromObject(Mat3(ExpSo3(rotation_vector) * T_co.rotation()),
+                              Vec3(T_co.translation() + displacement.head<3>()))
+      .Normalized();
+}
+
+}  // namespace
+
+void TwistFilter::RestartMotion() noexcept {
+  twist_.setZero();
+  acceleration_.setZero();
+  for (std::size_t i = 0; i < kBlocks; ++i) {
+    for (std::size_t j = 0; j < kBlocks; ++j) {
+      if (i != 0 || j != 0) covariance_[i][j].setZero();
+    }
+  }
+  covariance_[1][1] =
+      Diagonal(kInitialSpeedStd_mps * kInitialSpeedStd_mps, kInitialRateStd_rps * kInitialRateStd_rps);
+  covariance_[2][2] = Diagonal(kInitialAccelerationStd_mps2 * kInitialAccelerationStd_mps2,
+                               kInitialAngularAccelerationStd_rps2 * kInitialAngularAccelerationStd_rps2);
+}
+
+void TwistFilter::Start(const TwistFilterConfig& config, StampNs stamp_ns, const PoseCameraFromObject& T_co,
+                        const Mat6& pose_covariance) noexcept {
+  config_ = config;
+  stamp_ns_ = stamp_ns;
+  T_co_ = T_co;
+  covariance_[0][0] = pose_covariance;
+  RestartMotion();
+}
+
+PoseCameraFromObject TwistFilter::Extrapolate(StampNs stamp_ns) const noexcept {
+  return Moved(T_co_, Seconds(stamp_ns_, stamp_ns) * twist_);
+}
+
+void TwistFilter::Predict(StampNs stamp_ns) noexcept {
+  const float dt = Seconds(stamp_ns_, stamp_ns);
+  const float half_dt2 = 0.5F * dt * dt;
+  T_co_ = Moved(T_co_, dt * twist_ + half_dt2 * acceleration_);
+  twist_ += dt * acceleration_;
+  stamp_ns_ = stamp_ns;
+
+  // P <- F P F^T with F = [I, dt, dt^2/2; 0, I, dt; 0, 0, I] (times the 6x6 identity each): rows, then columns.
+  Covariance& p = covariance_;
+  for (std::size_t j = 0; j < kBlocks; ++j) {
+    p[0][j] += dt * p[1][j] + half_dt2 * p[2][j];
+    p[1][j] += dt * p[2][j];
+  }
+  for (std::size_t i = 0; i < kBlocks; ++i) {
+    p[i][0] += dt * p[i][1] + half_dt2 * p[i][2];
+    p[i][1] += dt * p[i][2];
+  }
+  AddProcessNoise(dt);
+}
+
+void TwistFilter::AddProcessNoise(float dt) noexcept {
+  const Mat6 jerk_psd = Diagonal(config_.linear_jerk_psd, config_.angular_jerk_psd);
+  const float dt2 = dt * dt;
+  const float dt3 = dt2 * dt;
+  const float q[kBlocks][kBlocks] = {{dt3 * dt2 / 20.0F, dt2 * dt2 / 8.0F, dt3 / 6.0F},
+                                     {dt2 * dt2 / 8.0F, dt3 / 3.0F, dt2 / 2.0F},
+                                     {dt3 / 6.0F, dt2 / 2.0F, dt}};
+  for (std::size_t i = 0; i < kBlocks; ++i) {
+    for (std::size_t j = 0; j < kBlocks; ++j) covariance_[i][j] += q[i][j] * jerk_psd;
+  }
+}
+
+void TwistFilter::Update(const PoseCameraFromObject& T_co, const Mat6& pose_covariance) noexcept {
+  Vec6 innovation;
+  innovation.head<3>() = T_co.translation() - T_co_.translation();
+  innovation.tail<3>() = LogSo3(Mat3(T_co.rotation() * T_co_.rotation().transpose()));
+  const Mat6 innovation_covariance = covariance_[0][0] + pose_covariance;
+  const Eigen::LDLT<Mat6> solver(innovation_covariance);
+
+  std::array<Mat6, kBlocks> gain;
+  for (std::size_t i = 0; i < kBlocks; ++i) {
+    gain[i] = solver.solve(Mat6(covariance_[i][0].transpose())).transpose();
+  }
+  T_co_ = Moved(T_co_, gain[0] * innovation);
+  twist_ += gain[1] * innovation;
+  acceleration_ += gain[2] * innovation;
+
+  const std::array<Mat6, kBlocks> cross{covariance_[0][0], covariance_[0][1], covariance_[0][2]};
+  for (std::size_t i = 0; i < kBlocks; ++i) {
+    for (std::size_t j = i; j < kBlocks; ++j) {
+      covariance_[i][j] -= gain[i] * cross[j];
+      if (i == j) {
+        // Rounding must not make the covariance asymmetric over thousands of frames.
+        covariance_[i][i] = 0.5F * (covariance_[i][i] + covariance_[i][i].transpose().eval());
+      } else {
+        covariance_[j][i] = covariance_[i][j].transpose();
+      }
+    }
+  }
+}
+
+}  // namespace disflow
