@@ -9,13 +9,14 @@
 
 namespace disflow::hal {
 
-/// Counted since Open(); saturating.
+/// Counted since the link was constructed; saturating.
 struct LinkCounters {
   std::uint32_t sent_messages = 0;
   std::uint32_t dropped_messages = 0;  ///< The link could not take them (full buffer, peer gone).
+  std::uint32_t refused_messages = 0;  ///< The peer answered that nobody listens there (UDP).
   std::uint64_t sent_bytes = 0;
   std::uint64_t received_bytes = 0;
-  std::uint32_t reconnects = 0;
+  std::uint32_t reconnects = 0;  ///< Times Open() brought back a link that had been lost.
 };
 
 /// Something that carries bytes both ways: UDP socket, serial port, UART. Never blocks. Not
@@ -25,7 +26,10 @@ class ByteLink {
   ByteLink(const ByteLink&) = delete;
   ByteLink& operator=(const ByteLink&) = delete;
 
+  /// Idempotent after success. After kDeviceLost it may be called again until the device is back.
+  /// @return kOk, kNotFound, kPermissionDenied, kBusy, kUnsupported, kIoError; see the message.
   [[nodiscard]] Fault Open() noexcept { return DoOpen(); }
+  /// Idempotent.
   void Close() noexcept { DoClose(); }
 
   /// Sends a whole message or nothing.

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "disflow/hal/fault.h"
+
+namespace disflow::hal {
+
+/// Where a ByteLink goes, taken apart. Texts are zero-terminated copies.
+struct LinkAddress {
+  enum class Kind : std::uint8_t { kUdp, kSerial };
+
+  static constexpr std::uint32_t kDefaultBaud = 921600;
+  static constexpr std::size_t kMaxHostLength = 253;  ///< RFC 1035.
+  static constexpr std::size_t kMaxDeviceLength = 127;
+
+  Kind kind = Kind::kUdp;
+  char host[kMaxHostLength + 1] = {};      ///< UDP: name, IPv4 or IPv6 address (no brackets).
+  std::uint16_t port = 0;                  ///< UDP: the peer's.
+  std::uint16_t bind_port = 0;             ///< UDP: own port, 0 = any.
+  char device[kMaxDeviceLength + 1] = {};  ///< Serial: path, e.g. "/dev/ttyUSB0".
+  std::uint32_t baud = kDefaultBaud;       ///< Serial: bits per second.
+};
+
+/// Reads `udp://HOST:PORT[?bind=PORT]` or `serial:///dev/NAME[?baud=RATE]`. IPv6 addresses are
+/// written in brackets: `udp://[::1]:14550`.
+/// @param address Unchanged unless the result is ok.
+/// @return kInvalidUri with the part that is wrong and what it should look like.
+[[nodiscard]] Fault ParseLinkAddress(std::string_view uri, LinkAddress& address) noexcept;
+
+}  // namespace disflow::hal

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <type_traits>
+
+#include "disflow/hal/mavlink/message_traits.h"
+#include "disflow/status.h"
+
+/// @file
+/// MAVLink 2 framing: magic, header, payload without its trailing zeros, checksum.
+
+namespace disflow::hal::mavlink {
+
+inline constexpr std::uint8_t kMagic = 0xFD;
+inline constexpr std::size_t kHeaderSize = 10;
+inline constexpr std::size_t kChecksumSize = 2;
+inline constexpr std::size_t kSignatureSize = 13;
+inline constexpr std::size_t kMaxPayloadSize = 255;
+inline constexpr std::size_t kMaxFrameSize =
+    kHeaderSize + kMaxPayloadSize + kChecksumSize + kSignatureSize;
+inline constexpr std::uint8_t kFlagSigned = 0x01;
+
+/// Most bytes that one unsigned frame of this message takes.
+template <class Message>
+inline constexpr std::size_t kFrameSize = kHeaderSize + PayloadSize<Message>() + kChecksumSize;
+
+/// Who sends, and the how-manieth frame of that sender.
+struct FrameHeader {
+  std::uint8_t sequence = 0;
+  std::uint8_t system_id = 0;
+  std::uint8_t component_id = 0;
+};
+
+/// A checked frame inside a decoder's buffer.
+struct FrameView {
+  FrameHeader header;
+  std::uint32_t message_id = 0;
+  bool is_signed = false;              ///< A signature followed; it was skipped, not verified.
+  std::span<const std::byte> payload;  ///< Without its trailing zeros.
+};
+
+/// Unsigned integer that holds the bits of T.
+template <class T>
+using WireBits = std::conditional_t<
+    sizeof(T) == 1, std::uint8_t,
+    std::conditional_t<sizeof(T) == 2, std::uint16_t,
+                       std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>>>;
+
+/// Writes fields one after the other, little endian. The span must hold the whole payload.
+class PayloadWriter {
+ public:
+  explicit constexpr PayloadWriter(std::span<std::byte> out) noexcept : out_(out) {}
+
+  template <class T>
+  constexpr void operator()(const char* /*name*/, const T& value,
+                            FieldKind /*kind*/ = FieldKind::kBase) noexcept {
+    Put(value);
+  }
+  template <class T, std::size_t kSize>
+  constexpr void operator()(const char* /*name*/, const std::array<T, kSize>& values,
+                            FieldKind /*kind*/ = FieldKind::kBase) noexcept {
+    for (const T& value : values) Put(value);
+  }
+
+ private:
+  template <class T>
+  constexpr void Put(const T& value) noexcept {
+    const auto bits = std::bit_cast<WireBits<T>>(value);
+    for (std::size_t i = 0; i < sizeof(T); ++i) {
+      out_[position_++] = static_cast<std::byte>((bits >> (8 * i)) & 0xFFU);
+    }
+  }
+
+  std::span<std::byte> out_;
+  std::size_t position_ = 0;
+};
+
+/// Reads fields one after the other; bytes past the end are zeros, as truncation demands.
+class PayloadReader {
+ public:
+  explicit constexpr PayloadReader(std::span<const std::byte> in) noexcept : in_(in) {}
+
+  template <class T>
+  constexpr void operator()(const char* /*name*/, T& value,
+                            FieldKind /*kind*/ = FieldKind::kBase) noexcept {
+    Get(value);
+  }
+  template <class T, std::size_t kSize>
+  constexpr void operator()(const char* /*name*/, std::array<T, kSize>& values,
+                            FieldKind /*kind*/ = FieldKind::kBase) noexcept {
+    for (T& value : values) Get(value);
+  }
+
+ private:
+  template <class T>
+  constexpr void Get(T& value) noexcept {
+    WireBits<T> bits = 0;
+    for (std::size_t i = 0; i < sizeof(T); ++i, ++position_) {
+      if (position_ >= in_.size()) continue;
+      const auto byte = static_cast<WireBits<T>>(std::to_integer<std::uint8_t>(in_[position_]));
+      bits = static_cast<WireBits<T>>(bits | static_cast<WireBits<T>>(byte << (8 * i)));
+    }
+    value = std::bit_cast<T>(bits);
+  }
+
+  std::span<const std::byte> in_;
+  std::size_t position_ = 0;
+};
+
+/// Puts header and checksum around a payload that already lies at out[kHeaderSize...].
+/// @param payload_size Before truncation; out holds at least kHeaderSize + payload_size +
+/// kChecksumSize bytes.
+/// @return Size of the whole frame.
+[[nodiscard]] std::size_t SealFrame(const FrameHeader& header, std::uint32_t message_id,
+                                    std::uint8_t crc_extra, std::size_t payload_size,
+                                    std::span<std::byte> out) noexcept;
+
+/// Writes one unsigned frame.
+/// @param out At least kFrameSize<Message> bytes.
+/// @return Bytes written, or kCapacityExceeded if `out` is too small (nothing is written then).
+template <class Message>
+[[nodiscard]] Expected<std::size_t> EncodeFrame(const Message& message, const FrameHeader& header,
+                                                std::span<std::byte> out) noexcept {
+  if (out.size() < kFrameSize<Message>) return {0, Status::kCapacityExceeded};
+  PayloadWriter writer(out.subspan(kHeaderSize));
+  Message::VisitFields(message, writer);
+  return {SealFrame(header, Message::kId, CrcExtra<Message>(), PayloadSize<Message>(), out)};
+}
+
+/// Takes a message out of a checked frame. Missing bytes are zeros, bytes of newer extensions are
+/// ignored.
+/// @return kOk, or kUnsupported if the frame carries another message (`message` is unchanged).
+template <class Message>
+[[nodiscard]] Status DecodePayload(const FrameView& frame, Message& message) noexcept {
+  if (frame.message_id != Message::kId) return Status::kUnsupported;
+  PayloadReader reader(frame.payload);
+  Message::VisitFields(message, reader);
+  return Status::kOk;
+}
+
+}  // namespace disflow::hal::mavlink

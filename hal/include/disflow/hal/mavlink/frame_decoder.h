@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "disflow/hal/mavlink/frame.h"
+
+namespace disflow::hal::mavlink {
+
+/// What the decoder met; saturating.
+struct DecoderCounters {
+  std::uint32_t frames = 0;             ///< Complete, with a right checksum.
+  std::uint32_t bad_checksum = 0;       ///< Known message, wrong checksum.
+  std::uint32_t unknown_id = 0;         ///< Headers of messages that DisFlow does not know.
+  std::uint32_t unsupported_flags = 0;  ///< Headers with incompatibility flags other than "signed".
+  std::uint32_t skipped_bytes = 0;      ///< Bytes that belong to no accepted frame.
+};
+
+/// Finds the MAVLink 2 frames of known messages in a stream of bytes that may start anywhere and
+/// contain anything.
+///
+/// After a header that turns out to be none, the search goes on at the very next byte, so that
+/// garbage never costs a whole frame that follows it. Fixed memory; not thread-safe.
+///
+/// @code
+/// while (!bytes.empty()) {
+///   bytes = bytes.subspan(decoder.Feed(bytes));
+///   while (decoder.Next(frame)) Use(frame);
+/// }
+/// @endcode
+class FrameDecoder {
+ public:
+  /// Takes as many bytes as fit; always at least one if Next() was called until it returned false.
+  /// @return Number of bytes taken from the front of `bytes`.
+  [[nodiscard]] std::size_t Feed(std::span<const std::byte> bytes) noexcept;
+
+  /// @param frame The next whole frame; its payload stays valid until the next call of Feed() or
+  /// Next().
+  /// @return false if more bytes are needed (`frame` is unchanged then).
+  [[nodiscard]] bool Next(FrameView& frame) noexcept;
+
+  [[nodiscard]] const DecoderCounters& counters() const noexcept { return counters_; }
+
+ private:
+  enum class Verdict : std::uint8_t { kIncomplete, kGarbage, kFrame };
+
+  [[nodiscard]] Verdict Examine(std::size_t& frame_size) noexcept;
+  [[nodiscard]] std::uint8_t At(std::size_t offset) const noexcept {
+    return std::to_integer<std::uint8_t>(buffer_[begin_ + offset]);
+  }
+  [[nodiscard]] std::uint32_t MessageId() const noexcept {
+    return At(7) | (std::uint32_t{At(8)} << 8U) | (std::uint32_t{At(9)} << 16U);
+  }
+
+  std::array<std::byte, kMaxFrameSize> buffer_{};
+  std::size_t begin_ = 0;
+  std::size_t end_ = 0;
+  DecoderCounters counters_;
+};
+
+}  // namespace disflow::hal::mavlink

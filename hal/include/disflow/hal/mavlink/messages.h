@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+/// @file
+/// The MAVLink messages that DisFlow speaks, field by field. docs/wire-format.md explains their
+/// meaning and frames; docs/disflow.xml is the definition of the private one.
+///
+/// Every message lists its fields once, in wire order (base fields by falling size, then
+/// extensions); payload size, checksum seed, encoder and decoder are all derived from that list.
+
+namespace disflow::hal::mavlink {
+
+/// Coordinate frames (MAV_FRAME) that DisFlow can name.
+enum class MavFrame : std::uint8_t {
+  kLocalNed = 1,
+  kLocalEnu = 4,
+  kBodyFrd = 12,  ///< x forward, y right, z down; the camera is the body.
+  kLocalFrd = 20,
+  kLocalFlu = 21,
+};
+
+/// Marks fields that came into a message after its first release: they do not count in CRC_EXTRA.
+enum class FieldKind : std::uint8_t { kBase, kExtension };
+
+/// HEARTBEAT (#0).
+struct Heartbeat {
+  static constexpr std::uint32_t kId = 0;
+  static constexpr std::string_view kName = "HEARTBEAT";
+
+  static constexpr std::uint8_t kTypeOnboardController = 18;
+  static constexpr std::uint8_t kAutopilotInvalid = 8;  ///< "Not a flight controller".
+  static constexpr std::uint8_t kStateStandby = 3;
+  static constexpr std::uint8_t kStateActive = 4;
+  static constexpr std::uint8_t kMavlinkVersion = 3;
+
+  std::uint32_t custom_mode = 0;  ///< TrackingState.
+  std::uint8_t type = kTypeOnboardController;
+  std::uint8_t autopilot = kAutopilotInvalid;
+  std::uint8_t base_mode = 0;
+  std::uint8_t system_status = kStateStandby;
+  std::uint8_t mavlink_version = kMavlinkVersion;
+
+  template <class Self, class Visitor>
+  static constexpr void VisitFields(Self& message, Visitor& field) {
+    field("custom_mode", message.custom_mode);
+    field("type", message.type);
+    field("autopilot", message.autopilot);
+    field("base_mode", message.base_mode);
+    field("system_status", message.system_status);
+    field("mavlink_version", message.mavlink_version);
+  }
+};
+
+/// ODOMETRY (#331). Frames: docs/wire-format.md.
+struct Odometry {
+  static constexpr std::uint32_t kId = 331;
+  static constexpr std::string_view kName = "ODOMETRY";
+
+  static constexpr std::uint8_t kEstimatorVision = 2;
+  static constexpr std::int8_t kQualityFailed = -1;
+  static constexpr std::int8_t kQualityUnknown = 0;
+  static constexpr int kCovarianceSize = 21;  ///< Upper triangle of a 6x6 matrix, row by row.
+
+  std::uint64_t time_usec = 0;
+  float x = 0.0F;
+  float y = 0.0F;
+  float z = 0.0F;
+  std::array<float, 4> q{1.0F, 0.0F, 0.0F, 0.0F};  ///< w, x, y, z.
+  float vx = 0.0F;
+  float vy = 0.0F;
+  float vz = 0.0F;
+  float rollspeed = 0.0F;
+  float pitchspeed = 0.0F;
+  float yawspeed = 0.0F;
+  std::array<float, kCovarianceSize> pose_covariance{};
+  std::array<float, kCovarianceSize> velocity_covariance{};
+  std::uint8_t frame_id = 0;
+  std::uint8_t child_frame_id = 0;
+  std::uint8_t reset_counter = 0;
+  std::uint8_t estimator_type = kEstimatorVision;
+  std::int8_t quality = kQualityUnknown;
+
+  template <class Self, class Visitor>
+  static constexpr void VisitFields(Self& message, Visitor& field) {
+    field("time_usec", message.time_usec);
+    field("x", message.x);
+    field("y", message.y);
+    field("z", message.z);
+    field("q", message.q);
+    field("vx", message.vx);
+    field("vy", message.vy);
+    field("vz", message.vz);
+    field("rollspeed", message.rollspeed);
+    field("pitchspeed", message.pitchspeed);
+    field("yawspeed", message.yawspeed);
+    field("pose_covariance", message.pose_covariance);
+    field("velocity_covariance", message.velocity_covariance);
+    field("frame_id", message.frame_id);
+    field("child_frame_id", message.child_frame_id);
+    field("reset_counter", message.reset_counter, FieldKind::kExtension);
+    field("estimator_type", message.estimator_type, FieldKind::kExtension);
+    field("quality", message.quality, FieldKind::kExtension);
+  }
+};
+
+/// DISFLOW_STATUS (#13721360 = 0xD15F10), private: see docs/disflow.xml.
+struct DisflowStatus {
+  static constexpr std::uint32_t kId = 0xD15F10;
+  static constexpr std::string_view kName = "DISFLOW_STATUS";
+
+  static constexpr std::uint32_t kAgeUnknown = 0xFFFFFFFF;
+
+  std::uint64_t time_usec = 0;         ///< Capture time, as in ODOMETRY.
+  float score = 0.0F;                  ///< Share of samples that the model explains, 0..1.
+  float rms_m = 0.0F;                  ///< Root mean square of the inliers' distances.
+  std::uint32_t age_us = kAgeUnknown;  ///< From capture to sending.
+  // Totals since the tracker was constructed, so that a lost packet loses no count.
+  std::uint32_t frames = 0;
+  std::uint32_t dropped_frames = 0;  ///< Lost between sensor and tracker.
+  std::uint32_t frames_rejected = 0;
+  std::uint32_t frames_unregistered = 0;
+  std::uint32_t observations_rejected = 0;
+  std::uint32_t samples_dropped = 0;
+  std::uint32_t samples_refused = 0;
+  std::uint32_t clusters_evicted = 0;
+  // Of this frame.
+  std::uint16_t samples = 0;
+  std::uint16_t inliers = 0;
+  std::uint16_t edge_inliers = 0;
+  std::uint16_t residuals_unmatched = 0;
+  std::uint16_t residuals_truncated = 0;
+  std::uint16_t residuals_normal_mismatch = 0;
+  std::uint8_t state = 0;   ///< TrackingState.
+  std::uint8_t status = 0;  ///< disflow::Status.
+  std::uint8_t quality = 0;
+  std::uint8_t reset_counter = 0;
+
+  template <class Self, class Visitor>
+  static constexpr void VisitFields(Self& message, Visitor& field) {
+    field("time_usec", message.time_usec);
+    field("score", message.score);
+    field("rms_m", message.rms_m);
+    field("age_us", message.age_us);
+    field("frames", message.frames);
+    field("dropped_frames", message.dropped_frames);
+    field("frames_rejected", message.frames_rejected);
+    field("frames_unregistered", message.frames_unregistered);
+    field("observations_rejected", message.observations_rejected);
+    field("samples_dropped", message.samples_dropped);
+    field("samples_refused", message.samples_refused);
+    field("clusters_evicted", message.clusters_evicted);
+    field("samples", message.samples);
+    field("inliers", message.inliers);
+    field("edge_inliers", message.edge_inliers);
+    field("residuals_unmatched", message.residuals_unmatched);
+    field("residuals_truncated", message.residuals_truncated);
+    field("residuals_normal_mismatch", message.residuals_normal_mismatch);
+    field("state", message.state);
+    field("status", message.status);
+    field("quality", message.quality);
+    field("reset_counter", message.reset_counter);
+  }
+};
+
+}  // namespace disflow::hal::mavlink

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "disflow/hal/link_address.h"
+
+#include <charconv>
+#include <cstring>
+#include <system_error>
+
+namespace disflow::hal {
+namespace {
+
+constexpr std::uint32_t kMaxPort = 65535;
+constexpr std::uint32_t kMaxBaud = 4'000'000;
+
+/// printf's "%.*s" wants an int; longer texts would not fit into a Fault anyway.
+struct Printable {
+  int size;
+  const char* text;
+  explicit Printable(std::string_view view) noexcept
+      : size(static_cast<int>(view.size() < 96 ? view.size() : 96)), text(view.data()) {}
+};
+
+[[nodiscard]] Fault BadUri(std::string_view uri, const char* what) noexcept {
+  const Printable shown(uri);
+  return MakeFault(Status::kInvalidUri, "link '%.*s': %s", shown.size, shown.text, what);
+}
+
+[[nodiscard]] bool ParseNumber(std::string_view text, std::uint32_t max,
+                               std::uint32_t& value) noexcept {
+  std::uint32_t parsed = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, parsed);
+  if (error != std::errc{} || stop != end || parsed == 0 || parsed > max) return false;
+  value = parsed;
+  return true;
+}
+
+template <std::size_t kSize>
+[[nodiscard]] bool CopyText(std::string_view text, char (&out)[kSize]) noexcept {
+  // An embedded zero would silently cut the name for the operating system.
+  if (text.empty() || text.size() >= kSize || text.find('\0') != std::string_view::npos) {
+    return false;
+  }
+  std::memcpy(out, text.data(), text.size());
+  out[text.size()] = '\0';
+  return true;
+}
+
+/// Splits "rest?query"; both parts may be empty.
+void SplitQuery(std::string_view text, std::string_view& rest, std::string_view& query) noexcept {
+  const std::size_t mark = text.find('?');
+  rest = text.substr(0, mark);
+  query = mark == std::string_view::npos ? std::string_view{} : text.substr(mark + 1);
+}
+
+/// Both kinds know exactly one option, `name`=number.
+[[nodiscard]] bool ParseOption(std::string_view query, std::string_view name, std::uint32_t max,
+                               std::uint32_t& value) noexcept {
+  return query.starts_with(name) && ParseNumber(query.substr(name.size()), max, value);
+}
+
+[[nodiscard]] Fault ParseUdp(std::string_view uri, std::string_view text,
+                             LinkAddress& address) noexcept {
+  std::string_view endpoint;
+  std::string_view query;
+  SplitQuery(text, endpoint, query);
+  const std::size_t colon = endpoint.rfind(':');
+  if (colon == std::string_view::npos) {
+    return BadUri(uri, "the port is missing; write udp://HOST:PORT");
+  }
+  std::string_view host = endpoint.substr(0, colon);
+  if (host.size() >= 2 && host.front() == '[' && host.back() == ']') {
+    host = host.substr(1, host.size() - 2);
+  } else if (host.find(':') != std::string_view::npos) {
+    return BadUri(uri, "an IPv6 address needs brackets; write udp://[ADDRESS]:PORT");
+  }
+  if (!CopyText(host, address.host)) {
+    return BadUri(uri, "the host is missing or too long; write udp://HOST:PORT");
+  }
+  std::uint32_t port = 0;
+  if (!ParseNumber(endpoint.substr(colon + 1), kMaxPort, port)) {
+    return BadUri(uri, "the port is not a number from 1 to 65535");
+  }
+  address.port = static_cast<std::uint16_t>(port);
+  std::uint32_t bind_port = 0;
+  if (!query.empty() && !ParseOption(query, "bind=", kMaxPort, bind_port)) {
+    return BadUri(uri, "the only option is ?bind=PORT, a number from 1 to 65535");
+  }
+  address.bind_port = static_cast<std::uint16_t>(bind_port);
+  return {};
+}
+
+[[nodiscard]] Fault ParseSerial(std::string_view uri, std::string_view text,
+                                LinkAddress& address) noexcept {
+  std::string_view device;
+  std::string_view query;
+  SplitQuery(text, device, query);
+  if (!device.starts_with('/') || !CopyText(device, address.device)) {
+    return BadUri(uri, "the device must be an absolute path; write serial:///dev/ttyUSB0");
+  }
+  if (!query.empty() && !ParseOption(query, "baud=", kMaxBaud, address.baud)) {
+    return BadUri(uri, "the only option is ?baud=RATE, a number from 1 to 4000000");
+  }
+  return {};
+}
+
+}  // namespace
+
+Fault ParseLinkAddress(std::string_view uri, LinkAddress& address) noexcept {
+  constexpr std::string_view kUdp = "udp://";
+  constexpr std::string_view kSerial = "serial://";
+  LinkAddress parsed;
+  Fault fault;
+  if (uri.starts_with(kUdp)) {
+    parsed.kind = LinkAddress::Kind::kUdp;
+    fault = ParseUdp(uri, uri.substr(kUdp.size()), parsed);
+  } else if (uri.starts_with(kSerial)) {
+    parsed.kind = LinkAddress::Kind::kSerial;
+    fault = ParseSerial(uri, uri.substr(kSerial.size()), parsed);
+  } else {
+    fault = BadUri(uri, "unknown kind; write udp://HOST:PORT or serial:///dev/NAME?baud=RATE");
+  }
+  if (fault.ok()) address = parsed;
+  return fault;
+}
+
+}  // namespace disflow::hal

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "disflow/hal/mavlink/frame_decoder.h"
+
+#include <algorithm>
+
+#include "disflow/hal/saturating.h"
+
+namespace disflow::hal::mavlink {
+namespace {
+
+struct KnownMessage {
+  std::uint32_t id;
+  std::uint8_t crc_extra;
+};
+
+constexpr std::array kKnownMessages{
+    KnownMessage{Heartbeat::kId, CrcExtra<Heartbeat>()},
+    KnownMessage{Odometry::kId, CrcExtra<Odometry>()},
+    KnownMessage{DisflowStatus::kId, CrcExtra<DisflowStatus>()},
+};
+
+}  // namespace
+
+std::size_t FrameDecoder::Feed(std::span<const std::byte> bytes) noexcept {
+  if (begin_ > 0) {
+    std::copy(buffer_.begin() + static_cast<std::ptrdiff_t>(begin_),
+              buffer_.begin() + static_cast<std::ptrdiff_t>(end_), buffer_.begin());
+    end_ -= begin_;
+    begin_ = 0;
+  }
+  const std::size_t taken = std::min(bytes.size(), buffer_.size() - end_);
+  std::copy_n(bytes.begin(), taken, buffer_.begin() + static_cast<std::ptrdiff_t>(end_));
+  end_ += taken;
+  return taken;
+}
+
+bool FrameDecoder::Next(FrameView& frame) noexcept {
+  while (begin_ < end_) {
+    std::size_t frame_size = 0;
+    switch (Examine(frame_size)) {
+      case Verdict::kIncomplete:
+        return false;
+      case Verdict::kGarbage:
+        AddSaturating(counters_.skipped_bytes);
+        ++begin_;
+        break;
+      case Verdict::kFrame:
+        AddSaturating(counters_.frames);
+        frame.header = {.sequence = At(4), .system_id = At(5), .component_id = At(6)};
+        frame.message_id = MessageId();
+        frame.is_signed = (At(2) & kFlagSigned) != 0;
+        frame.payload = std::span(buffer_).subspan(begin_ + kHeaderSize, At(1));
+        begin_ += frame_size;
+        return true;
+    }
+  }
+  return false;
+}
+
+FrameDecoder::Verdict FrameDecoder::Examine(std::size_t& frame_size) noexcept {
+  if (At(0) != kMagic) return Verdict::kGarbage;
+  if (end_ - begin_ < kHeaderSize) return Verdict::kIncomplete;
+  if ((At(2) & ~kFlagSigned) != 0) {
+    AddSaturating(counters_.unsupported_flags);
+    return Verdict::kGarbage;
+  }
+  const std::uint32_t id = MessageId();
+  const auto* const known =
+      std::find_if(kKnownMessages.begin(), kKnownMessages.end(),
+                   [id](const KnownMessage& message) { return message.id == id; });
+  if (known == kKnownMessages.end()) {
+    // Its checksum cannot be verified, so its length cannot be trusted to skip over it.
+    AddSaturating(counters_.unknown_id);
+    return Verdict::kGarbage;
+  }
+  const std::size_t payload_end = kHeaderSize + At(1);
+  frame_size = payload_end + kChecksumSize + ((At(2) & kFlagSigned) != 0 ? kSignatureSize : 0);
+  if (end_ - begin_ < frame_size) return Verdict::kIncomplete;
+
+  Crc crc;
+  crc.Add(std::span<const std::byte>(buffer_).subspan(begin_ + 1, payload_end - 1));
+  crc.Add(known->crc_extra);
+  const std::uint32_t received = At(payload_end) | (std::uint32_t{At(payload_end + 1)} << 8U);
+  if (crc.value() == received) return Verdict::kFrame;
+  AddSaturating(counters_.bad_checksum);
+  return Verdict::kGarbage;
+}
+
+}  // namespace disflow::hal::mavlink

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string_view>
+#include <variant>
+
+#include "disflow/posix/serial_link.h"
+#include "disflow/posix/udp_link.h"
+
+namespace disflow::posix {
+
+/// A UDP or serial link, chosen by its address. Cannot be moved: keep it in a std::deque or an
+/// array.
+class Link {
+ public:
+  Link() = default;
+  Link(const Link&) = delete;
+  Link& operator=(const Link&) = delete;
+
+  /// Chooses and configures the link; does not open it.
+  /// @param uri See hal::ParseLinkAddress().
+  /// @return kOk or kInvalidUri.
+  [[nodiscard]] hal::Fault Configure(std::string_view uri);
+
+  /// @return The link, or null before Configure() succeeded.
+  [[nodiscard]] hal::ByteLink* get() noexcept;
+
+ private:
+  std::variant<std::monostate, UdpLink, SerialLink> link_;
+};
+
+}  // namespace disflow::posix

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "disflow/hal/byte_link.h"
+#include "disflow/hal/link_address.h"
+#include "disflow/posix/file_descriptor.h"
+
+namespace disflow::posix {
+
+/// One datagram per message to one peer, and datagrams from that peer back.
+///
+/// The host is looked up in Open() (which may wait for a name server); where a name has both kinds
+/// of addresses, IPv4 is taken, since ground stations listen there. A peer that is not there is no
+/// error: what it refuses is counted.
+class UdpLink final : public hal::ByteLink {
+ public:
+  /// @param address Of kind kUdp.
+  explicit UdpLink(const hal::LinkAddress& address);
+
+ private:
+  hal::Fault DoOpen() noexcept override;
+  void DoClose() noexcept override;
+  hal::Fault DoSend(std::span<const std::byte> message) noexcept override;
+  /// A datagram that is longer than `buffer` loses its tail.
+  Expected<std::size_t> DoReceive(std::span<std::byte> buffer) noexcept override;
+  [[nodiscard]] const char* DoName() const noexcept override { return name_.c_str(); }
+  [[nodiscard]] hal::LinkCounters DoCounters() const noexcept override { return counters_; }
+
+  hal::LinkAddress address_;
+  std::string name_;
+  FileDescriptor socket_;
+  hal::LinkCounters counters_;
+};
+
+}  // namespace disflow::posix

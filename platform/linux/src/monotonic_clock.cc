@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "disflow/posix/monotonic_clock.h"
+
+#include <cerrno>
+#include <ctime>
+
+namespace disflow::posix {
+namespace {
+
+constexpr std::int64_t kNsPerS = 1'000'000'000;
+
+}  // namespace
+
+std::int64_t MonotonicClock::DoNowNs() noexcept {
+  timespec now{};
+  // Cannot fail: the clock exists on every Linux and the pointer is valid.
+  (void)::clock_gettime(CLOCK_MONOTONIC, &now);
+  return std::int64_t{now.tv_sec} * kNsPerS + now.tv_nsec;
+}
+
+void MonotonicClock::DoSleepUntilNs(std::int64_t deadline_ns) noexcept {
+  if (deadline_ns <= 0) return;
+  timespec deadline{};
+  deadline.tv_sec = static_cast<std::time_t>(deadline_ns / kNsPerS);
+  deadline.tv_nsec = static_cast<decltype(deadline.tv_nsec)>(deadline_ns % kNsPerS);
+  // An absolute deadline, so that signals do not stretch the wait.
+  while (::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &deadline, nullptr) == EINTR) {
+  }
+}
+
+}  // namespace disflow::posix

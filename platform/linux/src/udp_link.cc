@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "disflow/posix/udp_link.h"
+
+#include <netdb.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+
+#include <cstring>
+#include <memory>
+
+#include "disflow/hal/saturating.h"
+#include "errno_fault.h"
+
+namespace disflow::posix {
+namespace {
+
+using AddressList = std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)>;
+
+std::string NameOf(const hal::LinkAddress& address) {
+  const std::string host = address.host;
+  const bool is_ipv6 = host.find(':') != std::string::npos;
+  return "udp://" + (is_ipv6 ? "[" + host + "]" : host) + ":" + std::to_string(address.port);
+}
+
+hal::Fault Resolve(const hal::LinkAddress& address, const char* name, AddressList& list) noexcept {
+  char port[8] = {};
+  (void)std::snprintf(port, sizeof(port), "%u", unsigned{address.port});
+  addrinfo hints{};
+  hints.ai_socktype = SOCK_DGRAM;
+  hints.ai_flags = AI_NUMERICSERV;
+  addrinfo* found = nullptr;
+  const int error = ::getaddrinfo(address.host, port, &hints, &found);
+  if (error != 0) {
+    return hal::MakeFault(Status::kNotFound,
+                          "%s: host '%s' cannot be found: %s; check the name or use an address",
+                          name, address.host, ::gai_strerror(error));
+  }
+  list.reset(found);
+  return {};
+}
+
+/// Binds to `port` on every address of the family.
+int BindAny(int fd, int family, std::uint16_t port) noexcept {
+  if (family == AF_INET6) {
+    sockaddr_in6 own{};
+    own.sin6_family = AF_INET6;
+    own.sin6_addr = in6addr_any;
+    own.sin6_port = htons(port);
+    return ::bind(fd, reinterpret_cast<const sockaddr*>(&own), sizeof(own));
+  }
+  sockaddr_in own{};
+  own.sin_family = AF_INET;
+  own.sin_addr.s_addr = htonl(INADDR_ANY);
+  own.sin_port = htons(port);
+  return ::bind(fd, reinterpret_cast<const sockaddr*>(&own), sizeof(own));
+}
+
+hal::Fault Connect(const addrinfo& peer, const hal::LinkAddress& address, const char* name,
+                   FileDescriptor& out) noexcept {
+  FileDescriptor fd(
+      ::socket(peer.ai_family, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, peer.ai_protocol));
+  if (!fd.is_open()) return ErrnoFault(Status::kIoError, name, "cannot make a socket", errno);
+
+  // Without it a broadcast address is refused; for other addresses it changes nothing.
+  const int yes = 1;
+  if (::setsockopt(fd.get(), SOL_SOCKET, SO_BROADCAST, &yes, sizeof(yes)) != 0) {
+    return ErrnoFault(Status::kIoError, name, "cannot allow broadcast", errno);
+  }
+  if (address.bind_port != 0 && BindAny(fd.get(), peer.ai_family, address.bind_port) != 0) {
+    if (errno == EADDRINUSE) {
+      return hal::MakeFault(Status::kBusy,
+                            "%s: own port %u is in use by another program; choose another ?bind= "
+                            "port or stop that program",
+                            name, unsigned{address.bind_port});
+    }
+    const Status status = errno == EACCES ? Status::kPermissionDenied : Status::kIoError;
+    return ErrnoFault(status, name, "cannot bind to the ?bind= port", errno);
+  }
+  if (::connect(fd.get(), peer.ai_addr, peer.ai_addrlen) != 0) {
+    return ErrnoFault(Status::kIoError, name, "no route to the peer", errno);
+  }
+  out = std::move(fd);
+  return {};
+}
+
+}  // namespace
+
+UdpLink::UdpLink(const hal::LinkAddress& address) : address_(address), name_(NameOf(address)) {}
+
+hal::Fault UdpLink::DoOpen() noexcept {
+  if (socket_.is_open()) return {};
+  AddressList list(nullptr, &::freeaddrinfo);
+  hal::Fault fault = Resolve(address_, name(), list);
+  if (!fault.ok()) return fault;
+
+  fault = hal::MakeFault(Status::kNotFound, "%s: host has no address", name());
+  for (const int family : {AF_INET, AF_INET6}) {
+    for (const addrinfo* peer = list.get(); peer != nullptr; peer = peer->ai_next) {
+      if (peer->ai_family != family) continue;
+      fault = Connect(*peer, address_, name(), socket_);
+      // A port in use is the user's to solve; another family would only hide it.
+      if (fault.ok() || fault.status == Status::kBusy) return fault;
+    }
+  }
+  return fault;
+}
+
+void UdpLink::DoClose() noexcept { socket_.Reset(); }
+
+hal::Fault UdpLink::DoSend(std::span<const std::byte> message) noexcept {
+  if (!socket_.is_open()) return hal::MakeFault(Status::kNotOpen, "%s: not open", name());
+  const auto send = [&] {
+    return ::send(socket_.get(), message.data(), message.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+  };
+  ssize_t sent = RetryOnSignal(send);
+  if (sent < 0 && errno == ECONNREFUSED) {
+    // The answer to an earlier datagram; reading it cleared it, and this one has not been sent yet.
+    hal::AddSaturating(counters_.refused_messages);
+    sent = RetryOnSignal(send);
+  }
+  if (sent >= 0) {
+    hal::AddSaturating(counters_.sent_messages);
+    hal::AddSaturating(counters_.sent_bytes, message.size());
+    return {};
+  }
+  const int error = errno;
+  hal::AddSaturating(counters_.dropped_messages);
+  switch (error) {
+    case EAGAIN:
+    case ECONNREFUSED:
+    case ENOBUFS:
+    case ENOMEM:
+      return ErrnoFault(Status::kWouldBlock, name(), "message dropped", error);
+    case ENETDOWN:
+    case ENETUNREACH:
+    case EHOSTDOWN:
+    case EHOSTUNREACH:
+      // A cable may come back; the socket stays good.
+      return ErrnoFault(Status::kWouldBlock, name(), "message dropped, check the network", error);
+    default:
+      return ErrnoFault(Status::kIoError, name(), "cannot send", error);
+  }
+}
+
+Expected<std::size_t> UdpLink::DoReceive(std::span<std::byte> buffer) noexcept {
+  if (!socket_.is_open()) return {0, Status::kNotOpen};
+  const ssize_t received = RetryOnSignal(
+      [&] { return ::recv(socket_.get(), buffer.data(), buffer.size(), MSG_DONTWAIT); });
+  if (received >= 0) {
+    const auto size = static_cast<std::size_t>(received);
+    hal::AddSaturating(counters_.received_bytes, size);
+    return {size};
+  }
+  if (errno == ECONNREFUSED) {
+    hal::AddSaturating(counters_.refused_messages);
+    return {0};
+  }
+  return {0, errno == EAGAIN ? Status::kOk : Status::kIoError};
+}
+
+}  // namespace disflow::posix
