@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "disflow/flow/twist_filter.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
+
+#include "disflow/geometry/symmetric_solver.h"
 
 namespace disflow {
 namespace {
@@ -100,11 +101,12 @@ void TwistFilter::Update(const PoseCameraFromObject& T_co, const Mat6& pose_cova
   innovation.head<3>() = T_co.translation() - T_co_.translation();
   innovation.tail<3>() = LogSo3(Mat3(T_co.rotation() * T_co_.rotation().transpose()));
   const Mat6 innovation_covariance = covariance_[0][0] + pose_covariance;
-  const Eigen::LDLT<Mat6> solver(innovation_covariance);
+  const SymmetricSolver6 solver(innovation_covariance);
+  if (!solver.ok()) return;  // only for a measurement that is not finite; the prediction stands
 
   std::array<Mat6, kBlocks> gain;
   for (std::size_t i = 0; i < kBlocks; ++i) {
-    gain[i] = solver.solve(Mat6(covariance_[i][0].transpose())).transpose();
+    gain[i] = solver.Solve(Mat6(covariance_[i][0].transpose())).transpose();
   }
   T_co_ = Moved(T_co_, gain[0] * innovation);
   twist_ += gain[1] * innovation;

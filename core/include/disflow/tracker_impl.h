@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "disflow/geometry/symmetric_solver.h"
 #include "disflow/tracker.h"
 
 /// @file
@@ -189,7 +190,7 @@ Status Tracker<Limits>::Conclude(const DepthFrame& frame, Status observed, const
 /// Covariance of (origin's position, rotation) in camera axes from the information about the centre, object frame.
 template <class Limits>
 Mat6 Tracker<Limits>::PoseCovariance(const Aligned& aligned) const noexcept {
-  const Mat6 covariance_o = Eigen::LDLT<Mat6>(aligned.information).solve(Mat6(Mat6::Identity()));
+  const Mat6 covariance_o = SymmetricSolver6(aligned.information).Inverse();
   // T_oc' = exp(xi) T_oc moves the object's origin by -t + theta x c and turns the object by -theta, object axes.
   const Mat3 R_co = aligned.T_oc.rotation().transpose();
   Mat6 jacobian = Mat6::Zero();

@@ -19,7 +19,7 @@ class EdgeSampler {
 
   /// @param object All of the object's pixels, not eroded.
   template <class Mask>
-  void Sample(const DepthReader& depth, const PinholeCamera& camera, const Mask& object,
+  static void Sample(const DepthReader& depth, const PinholeCamera& camera, const Mask& object,
               const SurfaceSampler<Limits>& surfaces, const SamplerConfig& config, Edges& edges) noexcept {
     edges.clear();
     // Two passes: count the outline, then take every k-th of its points, so that the whole outline is represented.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <cmath>
 
+#include "disflow/geometry/symmetric_solver.h"
 #include "disflow/geometry/transform.h"
 #include "disflow/types.h"
 
@@ -40,9 +40,9 @@ struct NormalEquations {
   [[nodiscard]] bool Solve(float damping, Vec6& xi) const noexcept {
     Mat6 damped = h;
     damped.diagonal() *= 1.0F + damping;
-    const Eigen::LDLT<Mat6> solver(damped);
-    if (solver.info() != Eigen::Success || !solver.isPositive()) return false;
-    xi = -solver.solve(b);
+    const SymmetricSolver6 solver(damped);
+    if (!solver.ok()) return false;
+    xi = -solver.Solve(b);
     return xi.allFinite();
   }
 };
