@@ -32,8 +32,8 @@ Vec6d TwistError(const AlignedTrajectory& run, const AlignedFrame& frame) {
 }
 
 double Share(const std::vector<double>& values, std::size_t total, double low, double high) {
-  const auto inside = std::count_if(values.begin(), values.end(),
-                                    [&](double x) { return x >= low && x <= high; });
+  const auto inside =
+      std::count_if(values.begin(), values.end(), [&](double x) { return x >= low && x <= high; });
   return static_cast<double>(inside) / static_cast<double>(total);
 }
 

@@ -16,10 +16,10 @@ struct EstimateRow {
   int frame = 0;  ///< Position in the sequence, from 0.
   double timestamp_s = 0.0;
   EstimatedPose T_co;
-  PointTwist twist;  ///< Of the object frame's origin.
-  std::string status;  ///< Empty if the file has no such column.
-  std::string state;   ///< Empty if the file has no such column.
-  std::optional<Mat6d> pose_covariance;   ///< (x y z rx ry rz), camera axes; columns cov_pose_0..20.
+  PointTwist twist;                      ///< Of the object frame's origin.
+  std::string status;                    ///< Empty if the file has no such column.
+  std::string state;                     ///< Empty if the file has no such column.
+  std::optional<Mat6d> pose_covariance;  ///< (x y z rx ry rz), camera axes; columns cov_pose_0..20.
   std::optional<Mat6d> twist_covariance;  ///< (v, omega), camera axes; columns cov_twist_0..20.
   /// Milliseconds per stage, in the order of EstimateTable::stage_names; NaN = not given.
   std::vector<double> stage_ms;
@@ -34,8 +34,8 @@ struct EstimateTable {
   [[nodiscard]] std::optional<std::size_t> FindStage(std::string_view name) const;
 };
 
-/// Reads a CSV with the columns frame, timestamp, x..z, qx..qw, vx..vz, wx..wz in any order; others are
-/// optional. Covers empty fields and NaN in optional columns (= not given).
+/// Reads a CSV with the columns frame, timestamp, x..z, qx..qw, vx..vz, wx..wz in any order; others
+/// are optional. Covers empty fields and NaN in optional columns (= not given).
 /// @param frame_count Frames of the sequence; a row beyond them is refused.
 /// @throws InputError naming file, line and reason.
 [[nodiscard]] EstimateTable LoadEstimates(const std::filesystem::path& file, int frame_count);

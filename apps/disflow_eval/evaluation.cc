@@ -2,7 +2,9 @@
 #include "evaluation.h"
 
 #include "ground_truth.h"
+#include "mesh_metrics.h"
 #include "model_file.h"
+#include "ply_file.h"
 #include "surface.h"
 
 namespace disflow::apps {
@@ -10,13 +12,6 @@ namespace {
 
 /// Points for ADD from a mesh; ADD changes by less than a thousandth with more.
 constexpr std::size_t kAddPoints = 2000;
-
-std::vector<Vec3d> Positions(const std::vector<SurfacePoint>& points) {
-  std::vector<Vec3d> positions;
-  positions.reserve(points.size());
-  for (const SurfacePoint& point : points) positions.push_back(point.position);
-  return positions;
-}
 
 }  // namespace
 
@@ -40,6 +35,12 @@ Report Evaluate(const EvaluationInput& input) {
   report.pose_consistency = EvaluatePoseConsistency(report.run);
   if (report.has_velocities) report.twist_consistency = EvaluateTwistConsistency(report.run);
   report.stages = EvaluateTiming(report.estimates);
+  if (!input.mesh.empty()) {
+    report.mesh = input.mesh.string();
+    const Surface mesh = Move(report.run.T_ot.Inverse(), LoadPly(input.mesh));
+    const std::vector<SurfacePoint> samples = SampleSurface(model, kMeshSamples);
+    report.surface = CompareMeshes(mesh, model, samples, {});
+  }
   return report;
 }
 

@@ -12,6 +12,7 @@ struct EvaluationInput {
   std::filesystem::path sequence_dir;
   std::filesystem::path csv;
   std::filesystem::path model;  ///< Empty = sequence_dir/gt/model.obj.
+  std::filesystem::path mesh;   ///< Reconstructed surface, tracker's object frame; empty = none.
 };
 
 /// Reads everything and computes all metrics.

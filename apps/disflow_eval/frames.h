@@ -16,8 +16,8 @@ using Mat6d = Mat<double, 6, 6>;
 
 struct TrueObject {};  ///< The object frame of ground truth and of the model.
 
-using EstimatedPose = Transform<Camera, Object, double>;     ///< T_co as the tracker reports it.
-using TruePose = Transform<Camera, TrueObject, double>;      ///< T_ct, object in camera.
+using EstimatedPose = Transform<Camera, Object, double>;       ///< T_co as the tracker reports it.
+using TruePose = Transform<Camera, TrueObject, double>;        ///< T_ct, object in camera.
 using ObjectFromTrue = Transform<Object, TrueObject, double>;  ///< T_ot, fixed by the alignment.
 
 /// Velocity in camera axes of one point of a moving body.

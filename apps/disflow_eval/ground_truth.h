@@ -10,10 +10,10 @@ namespace disflow::apps {
 
 /// What really happened, frame by frame; all lists are of equal length or empty.
 struct GroundTruth {
-  std::vector<TruePose> T_ct;           ///< Never empty.
-  std::vector<PointTwist> twists;       ///< Empty if the sequence has no gt/velocities.txt.
-  std::vector<int> file_indices;        ///< Number in the names of a frame's depth and mask files.
-  std::vector<double> stamps_s;         ///< Empty if the sequence has no data.txt.
+  std::vector<TruePose> T_ct;      ///< Never empty.
+  std::vector<PointTwist> twists;  ///< Empty if the sequence has no gt/velocities.txt.
+  std::vector<int> file_indices;   ///< Number in the names of a frame's depth and mask files.
+  std::vector<double> stamps_s;    ///< Empty if the sequence has no data.txt.
 };
 
 /// Reads gt/poses.txt, gt/velocities.txt and data.txt of a sequence in the Fast-YCB layout.

@@ -4,16 +4,21 @@
 #include <exception>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "errors.h"
 #include "evaluation.h"
+#include "plots.h"
 #include "report.h"
+#include "summary.h"
 #include "text_file.h"
 
 namespace {
 
 using disflow::apps::EvaluationInput;
+using disflow::apps::OutputError;
 using disflow::apps::Report;
+using disflow::apps::WriteFile;
 namespace fs = std::filesystem;
 
 enum ExitStatus : int { kDone = 0, kWrongUsage = 2, kInputFailed = 3, kOutputFailed = 4 };
@@ -21,6 +26,8 @@ enum ExitStatus : int { kDone = 0, kWrongUsage = 2, kInputFailed = 3, kOutputFai
 struct Options {
   EvaluationInput input;
   fs::path json;
+  fs::path plots;
+  fs::path summary;
 };
 
 constexpr const char* kDescription =
@@ -33,17 +40,40 @@ constexpr const char* kFooter =
     "\n"
     "Exit status: 0 done, 2 wrong usage, 3 an input failed, 4 an output failed.";
 
-int Run(const Options& options) {
-  const Report report = disflow::apps::Evaluate(options.input);
+void PrintTable(const Report& report) {
   const std::string table = disflow::apps::FormatTable(report);
   (void)std::fwrite(table.data(), 1, table.size(), stdout);
-  if (!options.json.empty()) {
-    disflow::apps::WriteFile(options.json, disflow::apps::FormatJson(report));
-  }
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-    throw disflow::apps::OutputError("standard output", "cannot be written");
+    throw OutputError("standard output", "cannot be written");
   }
-  return kDone;
+}
+
+/// Writes what was asked for; one output that fails does not keep the others from being written.
+int WriteAll(const Report& report, const Options& options) {
+  int status = kDone;
+  const auto attempt = [&](auto write) {
+    try {
+      write();
+    } catch (const OutputError& error) {
+      std::fprintf(stderr, "disflow_eval: %s\n", error.what());
+      status = kOutputFailed;
+    }
+  };
+  std::vector<disflow::apps::Plot> plots;
+  attempt([&] { PrintTable(report); });
+  if (!options.json.empty()) {
+    attempt([&] { WriteFile(options.json, disflow::apps::FormatJson(report)); });
+  }
+  if (!options.plots.empty()) {
+    attempt([&] { plots = disflow::apps::WritePlots(report, options.plots); });
+  }
+  if (!options.summary.empty()) {
+    attempt([&] {
+      WriteFile(options.summary, disflow::apps::FormatSummary(
+                                     report, plots, options.summary.parent_path(), options.plots));
+    });
+  }
+  return status;
 }
 
 }  // namespace
@@ -54,23 +84,29 @@ int main(int argc, char** argv) {
   app.footer(kFooter);
   app.set_version_flag("--version", "disflow_eval " DISFLOW_VERSION " (" DISFLOW_BUILD ")");
   app.add_option("SEQ_DIR", options.input.sequence_dir, "Sequence with ground truth")->required();
-  app.add_option("--csv", options.input.csv, "Trajectory to judge, as disflow_track --csv writes it")
+  app.add_option("--csv", options.input.csv,
+                 "Trajectory to judge, as disflow_track --csv writes it")
       ->required()
       ->type_name("FILE");
   app.add_option("--model", options.input.model,
                  "Model of the object, .obj or .xyz, metres [SEQ_DIR/gt/model.obj]")
       ->type_name("FILE");
   app.add_option("--json", options.json, "Write all metrics as JSON")->type_name("FILE");
+  app.add_option(
+         "--mesh", options.input.mesh,
+         "Surface to judge, PLY in the tracker's object frame, as disflow_track --mesh writes it")
+      ->type_name("FILE");
+  app.add_option("--plots", options.plots, "Draw plots as PNG into this folder (needs gnuplot)")
+      ->type_name("DIR");
+  app.add_option("--summary", options.summary, "Write a one-page summary in Markdown")
+      ->type_name("FILE");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kDone : kWrongUsage;
   }
   try {
-    return Run(options);
-  } catch (const disflow::apps::OutputError& error) {
-    std::fprintf(stderr, "disflow_eval: %s\n", error.what());
-    return kOutputFailed;
+    return WriteAll(disflow::apps::Evaluate(options.input), options);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "disflow_eval: %s\n", error.what());
     return kInputFailed;

@@ -27,9 +27,8 @@ class PointIndex::Tree {
  public:
   explicit Tree(const std::vector<Vec3d>& points) : list_{points}, index_(3, list_) {}
 
-  using Index =
-      nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, PointList>, PointList,
-                                          3, std::uint32_t>;
+  using Index = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, PointList>,
+                                                    PointList, 3, std::uint32_t>;
   [[nodiscard]] const Index& index() const { return index_; }
 
  private:

@@ -21,7 +21,8 @@ class PointIndex {
   /// Distance from `query` to the nearest point.
   [[nodiscard]] double NearestDistance(const Vec3d& query) const;
 
-  /// Positions in the list of the `count` points nearest to `query` (fewer if there are fewer), nearest first.
+  /// Positions in the list of the `count` points nearest to `query` (fewer if there are fewer),
+  /// nearest first.
   void Nearest(const Vec3d& query, std::size_t count, std::vector<std::uint32_t>& nearest) const;
 
  private:

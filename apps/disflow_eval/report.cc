@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "report.h"
 
-#include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "units.h"
 
@@ -32,6 +30,9 @@ void AddFrames(const Report& report, RowWriter& rows) {
   rows.Add("estimated", "%zu (aligned at frame %d)", run.frames.size(), run.aligned_frame);
   rows.Add("lost", "%zu", run.lost);
   rows.Add("missing, counted as failed", "%zu", run.missing());
+  if (run.stamp_mismatches > 0) {
+    rows.Add("stamped otherwise than data.txt", "%zu: right CSV?", run.stamp_mismatches);
+  }
 }
 
 void AddPoses(const PoseMetrics& m, RowWriter& rows) {
@@ -82,6 +83,17 @@ void AddTiming(const std::vector<StageTiming>& stages, RowWriter& rows) {
   }
 }
 
+void AddSurface(const char* group, const MeshMetrics& m, RowWriter& rows) {
+  rows.Begin(group);
+  rows.Add("Chamfer", "%.3f mm", kMillimetres * m.chamfer_m);
+  rows.Add("mesh to model / model to mesh", "%.3f / %.3f mm", kMillimetres * m.accuracy_m,
+           kMillimetres * m.completeness_m);
+  rows.Add("Hausdorff", "%.3f mm", kMillimetres * m.hausdorff_m);
+  rows.Add("F at 1 / 2 / 5 mm", "%.3f / %.3f / %.3f", m.f_score[0], m.f_score[1], m.f_score[2]);
+  rows.Add("normals, mesh to model / back", "%.2f / %.2f deg",
+           kDegrees * m.mesh_to_model_normal_rad, kDegrees * m.model_to_mesh_normal_rad);
+}
+
 }  // namespace
 
 std::vector<StageTiming> EvaluateTiming(const EstimateTable& estimates) {
@@ -104,6 +116,13 @@ std::vector<ReportRow> Rows(const Report& report) {
   if (report.pose_consistency) AddConsistency("Pose consistency", *report.pose_consistency, rows);
   if (report.twist_consistency) {
     AddConsistency("Twist consistency", *report.twist_consistency, rows);
+  }
+  if (report.surface) {
+    AddSurface("Surface, whole", report.surface->whole, rows);
+    if (std::isfinite(report.surface->seen_share)) {
+      AddSurface("Surface, seen part", report.surface->seen, rows);
+      rows.Add("seen of the model", "%.1f %%", kPercent * report.surface->seen_share);
+    }
   }
   AddTiming(report.stages, rows);
   return rows.Take();

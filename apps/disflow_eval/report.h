@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "consistency.h"
+#include "mesh_metrics.h"
 #include "pose_metrics.h"
 #include "trajectory.h"
 
@@ -37,6 +38,8 @@ struct Report {
   std::optional<Consistency> pose_consistency;
   std::optional<Consistency> twist_consistency;
   std::vector<StageTiming> stages;
+  std::string mesh;  ///< Empty if none was given.
+  std::optional<MeshComparison> surface;
 };
 
 /// One number of the report, ready to show.

@@ -11,7 +11,7 @@ using Json = nlohmann::ordered_json;
 
 /// @param scale Factor from SI to the unit of the key that will hold this.
 Json ToJson(const Statistics& s, double scale = 1.0) {
-  return {{"count", s.count},          {"mean", scale * s.mean}, {"rmse", scale * s.rms},
+  return {{"count", s.count},           {"mean", scale * s.mean}, {"rmse", scale * s.rms},
           {"median", scale * s.median}, {"p95", scale * s.p95},   {"p99", scale * s.p99},
           {"max", scale * s.max}};
 }
@@ -23,6 +23,18 @@ Json ToJson(const Consistency& c) {
           {"share_below_95", c.share_below_95},
           {"frames", c.nees.size()},
           {"not_positive_definite", c.singular}};
+}
+
+Json ToJson(const MeshMetrics& m) {
+  return {{"chamfer_m", m.chamfer_m},
+          {"mesh_to_model_m", m.accuracy_m},
+          {"model_to_mesh_m", m.completeness_m},
+          {"hausdorff_m", m.hausdorff_m},
+          {"f_1mm", m.f_score[0]},
+          {"f_2mm", m.f_score[1]},
+          {"f_5mm", m.f_score[2]},
+          {"mesh_to_model_normal_deg", kDegrees * m.mesh_to_model_normal_rad},
+          {"model_to_mesh_normal_deg", kDegrees * m.model_to_mesh_normal_rad}};
 }
 
 }  // namespace
@@ -38,6 +50,7 @@ std::string FormatJson(const Report& report) {
                  {"estimated", report.run.frames.size()},
                  {"lost", report.run.lost},
                  {"missing", report.run.missing()},
+                 {"stamp_mismatches", report.run.stamp_mismatches},
                  {"aligned_at", report.run.aligned_frame}}},
                {"add_auc_percent", kPercent * m.add_auc},
                {"add_s_auc_percent", kPercent * m.add_s_auc},
@@ -53,6 +66,12 @@ std::string FormatJson(const Report& report) {
   }
   if (report.pose_consistency) json["pose_consistency"] = ToJson(*report.pose_consistency);
   if (report.twist_consistency) json["twist_consistency"] = ToJson(*report.twist_consistency);
+  if (report.surface) {
+    json["surface"] = {{"mesh", report.mesh},
+                       {"whole", ToJson(report.surface->whole)},
+                       {"seen", ToJson(report.surface->seen)},
+                       {"seen_share", report.surface->seen_share}};
+  }
   for (const StageTiming& stage : report.stages) json["time_ms"][stage.name] = ToJson(stage.ms);
   // File names need not be UTF-8; a replaced byte is better than no report.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

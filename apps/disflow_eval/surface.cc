@@ -79,6 +79,13 @@ std::vector<SurfacePoint> SampleSurface(const Surface& surface, std::size_t coun
   return points;
 }
 
+std::vector<Vec3d> Positions(const std::vector<SurfacePoint>& points) {
+  std::vector<Vec3d> positions;
+  positions.reserve(points.size());
+  for (const SurfacePoint& point : points) positions.push_back(point.position);
+  return positions;
+}
+
 Vec3d NearestBarycentric(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& query) {
   const Vec3d ab = b - a;
   const Vec3d ac = c - a;

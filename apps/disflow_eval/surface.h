@@ -31,6 +31,9 @@ struct SurfacePoint {
 /// returned as they are, whatever `count`.
 [[nodiscard]] std::vector<SurfacePoint> SampleSurface(const Surface& surface, std::size_t count);
 
+/// The positions alone.
+[[nodiscard]] std::vector<Vec3d> Positions(const std::vector<SurfacePoint>& points);
+
 /// Moves a surface into another frame.
 template <class To, class From>
 [[nodiscard]] Surface Move(const Transform<To, From, double>& T, Surface surface) {
@@ -39,8 +42,8 @@ template <class To, class From>
   return surface;
 }
 
-/// The point of a triangle at barycentric coordinates, with the vertices' normal there (the triangle's
-/// own if the surface has none).
+/// The point of a triangle at barycentric coordinates, with the vertices' normal there (the
+/// triangle's own if the surface has none).
 [[nodiscard]] SurfacePoint PointOnTriangle(const Surface& surface, std::uint32_t triangle,
                                            const Vec3d& barycentric);
 

@@ -13,7 +13,8 @@ namespace disflow::apps {
 [[nodiscard]] std::string ReadFile(const std::filesystem::path& file);
 
 /// Writes through a temporary file beside the target and renames it, so that an earlier result
-/// survives a full disk. Targets that are not regular files (/dev/null, pipes) are written directly.
+/// survives a full disk. Targets that are not regular files (/dev/null, pipes) are written
+/// directly.
 /// @throws OutputError
 void WriteFile(const std::filesystem::path& file, std::string_view text);
 

@@ -2,6 +2,7 @@
 #include "trajectory.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "errors.h"
 
@@ -9,6 +10,17 @@ namespace disflow::apps {
 namespace {
 
 bool HasPose(const EstimateRow& row) { return row.status.empty() || row.status == "ok"; }
+
+/// Stamps are compared since the aligned frame, for the clocks may differ; far less than a frame's
+/// time.
+constexpr double kStampTolerance_s = 0.002;
+
+bool StampsDiffer(const GroundTruth& truth, const EstimateRow& first, const EstimateRow& row) {
+  if (truth.stamps_s.empty()) return false;
+  const double expected_s = truth.stamps_s[static_cast<std::size_t>(row.frame)] -
+                            truth.stamps_s[static_cast<std::size_t>(first.frame)];
+  return std::abs(row.timestamp_s - first.timestamp_s - expected_s) > kStampTolerance_s;
+}
 
 bool IsLost(const EstimateRow& row) { return !HasPose(row) || row.state == "lost"; }
 
@@ -29,11 +41,11 @@ AlignedTrajectory Align(const GroundTruth& truth, const EstimateTable& estimates
     frame.row = &*row;
     frame.T_ct = truth.T_ct[k];
     frame.T_ct_estimated = row->T_co * run.T_ot;
-    frame.twist_estimated =
-        MoveTo(row->twist, frame.T_ct.translation() - row->T_co.translation());
+    frame.twist_estimated = MoveTo(row->twist, frame.T_ct.translation() - row->T_co.translation());
     if (!truth.twists.empty()) frame.twist = truth.twists[k];
     run.frames.push_back(frame);
     if (IsLost(*row)) ++run.lost;
+    if (StampsDiffer(truth, *first, *row)) ++run.stamp_mismatches;
   }
   return run;
 }

@@ -24,15 +24,16 @@ struct AlignedTrajectory {
   int aligned_frame = 0;             ///< Frame at which they were made equal.
   std::size_t frame_count = 0;       ///< Frames of the sequence.
   std::size_t lost = 0;              ///< Rows among `frames` whose status or state says so.
+  std::size_t stamp_mismatches = 0;  ///< Rows whose time since alignment is not the sequence's.
   std::vector<AlignedFrame> frames;  ///< In order; the first is the aligned one.
 
   /// Frames of the sequence without an estimate: rows that are missing or come before alignment.
   [[nodiscard]] std::size_t missing() const { return frame_count - frames.size(); }
 };
 
-/// A model-free tracker defines its own object frame, so the estimate is made equal to the truth once: at
-/// the first row whose status is "ok" (any, if there is no such column), frame 0 as a rule. Lost rows
-/// are kept as they stand.
+/// A model-free tracker defines its own object frame, so the estimate is made equal to the truth
+/// once: at the first row whose status is "ok" (any, if there is no such column), frame 0 as a
+/// rule. Lost rows are kept as they stand.
 /// @throws InputError if no row can be aligned.
 [[nodiscard]] AlignedTrajectory Align(const GroundTruth& truth, const EstimateTable& estimates);
 
