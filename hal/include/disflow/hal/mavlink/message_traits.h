@@ -90,10 +90,10 @@ template <class Message>
   return static_cast<std::uint8_t>((crc & 0xFFU) ^ (crc >> 8U));
 }
 
-// The published figures of the two standard messages prove the rule; the private one's are printed
-// in docs/wire-format.md and must never change.
+// The published figures of the two standard messages prove the rule; the private one's
+// stand in docs/wire-format.md and must never change.
 static_assert(PayloadSize<Heartbeat>() == 9 && CrcExtra<Heartbeat>() == 50);
 static_assert(PayloadSize<Odometry>() == 233 && CrcExtra<Odometry>() == 91);
-static_assert(PayloadSize<DisflowStatus>() == 68);
+static_assert(PayloadSize<DisflowStatus>() == 68 && CrcExtra<DisflowStatus>() == 237);
 
 }  // namespace disflow::hal::mavlink
