@@ -25,7 +25,7 @@ class EdgeSampler {
     // Two passes: count the outline, then take every k-th of its points, so that the whole outline is represented.
     int outline = 0;
     ForEachOutlinePixel(object, [&outline](int, int) { ++outline; });
-    const int stride = std::max(1, outline / (2 * Limits::kMaxEdgePoints));
+    const int stride = 1 + outline / Limits::kMaxEdgePoints;
     int index = 0;
     ForEachOutlinePixel(object, [&](int u, int v) {
       if (index++ % stride != 0) return;
@@ -111,6 +111,7 @@ class EdgeSampler {
     const float facing = near.normal.dot(ray);
     const float depth_m = near.offset_m / facing;
     if (!(depth_m > 0.0F) || !EndsBeforeBackground(depth, config, at, depth_m)) return false;
+    if (!ReachesOutline(depth, camera, at, near, surfaces.noise_std())) return false;
 
     const Vec3 along = camera.Ray(outline.x() - fit.inward.y(), outline.y() + fit.inward.x());
     edge.position_m = depth_m * ray;
@@ -120,6 +121,28 @@ class EdgeSampler {
     edge.direction = near.normal.cross(ray.cross(along)).normalized();
     edge.pixel_m = depth_m / camera.fx_px;
     return edge.direction.allFinite();
+  }
+
+  /// The pixels up to the outline lie on the surface: no sliver of another face, seen at a flat angle, is in between.
+  template <class At>
+  [[nodiscard]] static bool ReachesOutline(const DepthReader& depth, const PinholeCamera& camera, const At& at,
+                                           const typename SurfaceSampler<Limits>::LocalSurface& surface,
+                                           float noise_std) noexcept {
+    constexpr int kCheckedPx = 3;
+    constexpr float kPlaneTolerance = 0.002F;  // share of the depth
+    const float tolerance = 4.0F * noise_std + kPlaneTolerance / std::abs(surface.offset_m);
+    int agreeing = 0;
+    for (int i = 0; i < kCheckedPx; ++i) {
+      const Vec2 p = at(static_cast<float>(i));
+      const auto u = static_cast<int>(std::lround(p.x()));
+      const auto v = static_cast<int>(std::lround(p.y()));
+      const float depth_m = depth.AtOrZero(u, v);
+      if (depth_m <= 0.0F) continue;
+      const float expected = surface.normal.dot(camera.Ray(static_cast<float>(u), static_cast<float>(v))) / surface.offset_m;
+      if (std::abs(1.0F / depth_m - expected) > tolerance) return false;
+      ++agreeing;
+    }
+    return agreeing >= 2;
   }
 
   /// Everything just outside of the outline is farther away or unseen, and something farther is seen.
