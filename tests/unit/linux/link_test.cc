@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "disflow/posix/link.h"
+
+#include <gtest/gtest.h>
+
+namespace disflow::posix {
+namespace {
+
+TEST(Link, BeforeConfigure_ThereIsNone) { EXPECT_EQ(Link().get(), nullptr); }
+
+TEST(Link, Kind_FollowsTheAddress) {
+  Link link;
+  ASSERT_TRUE(link.Configure("udp://127.0.0.1:14550").ok());
+  ASSERT_NE(link.get(), nullptr);
+  EXPECT_STREQ(link.get()->name(), "udp://127.0.0.1:14550");
+  ASSERT_TRUE(link.Configure("serial:///dev/ttyS0?baud=115200").ok());
+  EXPECT_STREQ(link.get()->name(), "serial:///dev/ttyS0");
+}
+
+TEST(Link, BadAddress_LeavesTheOldLink) {
+  Link link;
+  ASSERT_TRUE(link.Configure("udp://127.0.0.1:14550").ok());
+  EXPECT_EQ(link.Configure("udp://127.0.0.1").status, Status::kInvalidUri);
+  ASSERT_NE(link.get(), nullptr);
+  EXPECT_STREQ(link.get()->name(), "udp://127.0.0.1:14550");
+}
+
+}  // namespace
+}  // namespace disflow::posix
