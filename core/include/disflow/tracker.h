@@ -53,6 +53,7 @@ class Tracker {
 
  private:
   static constexpr std::uint32_t kInitialFrames = 5;  ///< Frames after a start during which training catches up.
+  static constexpr std::uint32_t kFramesUntilVelocity = 3;
   static constexpr int kInitialBudgetFactor = 12;
   static constexpr float kDefinedPoseVariance = 1e-10F;  ///< (0.01 mm)^2 and (0.01 mrad)^2.
   static constexpr float kKnownPoseVariance = 1e-8F;

@@ -140,9 +140,11 @@ void Tracker<Limits>::StartObject(const DepthFrame& frame) noexcept {
 template <class Limits>
 typename Tracker<Limits>::Aligned Tracker<Limits>::Register(Estimate& estimate) noexcept {
   registration_.SetObservations(samples_, edges_);
-  const auto start =
-      PoseSearch<Limits>::Find(registration_, field_, model_edges_, config_.registration, T_oc_, T_oc_previous_);
-  Aligned aligned = registration_.Align(field_, model_edges_, config_.registration, start.T_oc, T_oc_,
+  const auto start = PoseSearch<Limits>::Find(registration_, field_, model_edges_, config_.registration, T_oc_,
+                                              T_oc_previous_, frame_index_ >= kFramesUntilVelocity);
+  // Where the prediction was not believed it must not pull either.
+  const PoseObjectFromCamera& T_expected = start.tried > 1 ? start.T_oc : T_oc_;
+  Aligned aligned = registration_.Align(field_, model_edges_, config_.registration, start.T_oc, T_expected,
                                         config_.registration.iterations);
   estimate.hypotheses = static_cast<std::uint8_t>(start.tried);
   estimate.iterations = static_cast<std::uint8_t>(aligned.iterations);

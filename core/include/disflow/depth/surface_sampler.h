@@ -86,7 +86,12 @@ class SurfaceSampler {
     do {
       columns_ = (box.width() + block_px_ - 1) / block_px_;
       rows_ = (box.height() + block_px_ - 1) / block_px_;
-    } while (columns_ * rows_ > Limits::kMaxBlocks && ++block_px_ > 0);
+      // Partly covered blocks yield samples too: leave them some room.
+      const float expected_samples = 1.2F * static_cast<float>(interior.count() / (block_px_ * block_px_));
+      if (columns_ * rows_ <= Limits::kMaxBlocks && expected_samples <= static_cast<float>(Limits::kMaxSurfaceSamples)) {
+        break;
+      }
+    } while (++block_px_ > 0);
     origin_u_ = box.u_min;
     origin_v_ = box.v_min;
     std::fill_n(blocks_.begin(), columns_ * rows_, PixelMoments{});
@@ -171,18 +176,22 @@ class SurfaceSampler {
 
   [[nodiscard]] InverseDepthPlane BestPlane(const SamplerConfig& config, int column, int row,
                                             const PixelMoments& own) const noexcept {
-    const float limit = config.max_residual_sigmas * config.max_residual_sigmas * noise_std_ * noise_std_;
+    const float noise_variance = noise_std_ * noise_std_;
+    const float limit = config.max_residual_sigmas * config.max_residual_sigmas * noise_variance;
     const float own_u = own.u / own.n;
     const float own_v = own.v / own.n;
     const float own_w = own.w_reference + own.w / own.n;
+    // Curved surface bends away from any plane, which a good sensor sees: it must not be taken for clutter.
+    const float bend = config.max_bend_ratio * own_w;
     InverseDepthPlane best;
     for (std::size_t i = 0; i < kWindows.size(); ++i) {
       const InverseDepthPlane plane = InverseDepthPlane::Fit(MergeWindow(column, row, kWindows[i]));
-      if (!plane.valid || plane.residual_variance > limit) continue;
+      if (!plane.valid || plane.residual_variance > limit + bend * bend) continue;
       const float deviation = own_w - plane.At(own_u, own_v);
-      if (deviation * deviation > 9.0F * noise_std_ * noise_std_ * (1.0F / own.n + plane.Leverage(own_u, own_v))) continue;
+      const float expected = noise_variance * (1.0F / own.n + plane.Leverage(own_u, own_v));
+      if (deviation * deviation > 9.0F * expected + bend * bend) continue;
       if (!best.valid || plane.residual_variance < best.residual_variance) best = plane;
-      if (i == 0) break;  // the whole window fits: no need to look at parts
+      if (i == 0 && plane.residual_variance <= limit) break;  // the whole window fits: no need to look at parts
     }
     return best;
   }
@@ -210,14 +219,15 @@ class SurfaceSampler {
     sample.cos_incidence = w / (g_norm * ray_norm);
     if (sample.cos_incidence < config.min_cos_incidence) return false;
     // dz = z^2 dw along the ray; projected onto the normal.
-    const float along_normal = depth_m * depth_m * ray_norm * sample.cos_incidence * noise_std_;
+    const float effective_std = std::sqrt(std::fmax(noise_std_ * noise_std_, plane.residual_variance));
+    const float along_normal = depth_m * depth_m * ray_norm * sample.cos_incidence * effective_std;
     const float floor = config.sample_floor_m * config.sample_floor_m;
     sample.variance_m2 = along_normal * along_normal / own.n + floor;
     sample.fused_variance_m2 = along_normal * along_normal * plane.Leverage(du, dv) + floor;
     // Slopes tilt the plane by f ds / |g|.
     const float tilt_u = camera.fx_px / g_norm;
     const float tilt_v = camera.fy_px / g_norm;
-    sample.normal_variance = 0.5F * noise_std_ * noise_std_ *
+    sample.normal_variance = 0.5F * effective_std * effective_std *
                              (plane.inverse_uu * tilt_u * tilt_u + plane.inverse_vv * tilt_v * tilt_v);
     surface = {true, sample.normal, sample.normal.dot(sample.position_m), sample.normal_variance, sample.cos_incidence};
     return true;

@@ -138,6 +138,18 @@ class Octree {
     VisitBelow(root_, 0, Cell{}, visit);
   }
 
+  /// Squared distance from x to a leaf's cell; 0 inside.
+  [[nodiscard]] float DistanceSquaredToCell(const Vec3& x_m, const Cell& cell) const noexcept {
+    return DistanceSquaredToNode(x_m, cell, kDepth);
+  }
+
+  /// Branch and bound: calls visit(leaf, bound_squared_m2), roughly nearest leaf first, for all leaves nearer to x than
+  /// the bound, which visit may lower.
+  template <class Visitor>
+  void VisitNearestFirst(const Vec3& x_m, float& bound_squared_m2, Visitor&& visit) const noexcept {
+    VisitNearer(root_, 0, Cell{}, x_m, bound_squared_m2, visit);
+  }
+
   /// Adds (weight +1) or removes (-1) a sample's share in the coarse surface of the levels above its leaf.
   void UpdateFacets(const Cell& cell, const Vec3& position_m, const Vec3& normal, float weight,
                     float crease_cos) noexcept {
@@ -247,6 +259,43 @@ class Octree {
       VisitBelow(child, level + 1, Cell{2 * cell.x + (o & 1), 2 * cell.y + ((o >> 1) & 1), 2 * cell.z + (o >> 2)},
                  visit);
     }
+  }
+
+  template <class Visitor>
+  void VisitNearer(Handle node, int level, const Cell& cell, const Vec3& x_m, float& bound_squared_m2,
+                   Visitor& visit) const noexcept {
+    if (DistanceSquaredToNode(x_m, cell, level) >= bound_squared_m2) return;
+    if (level == kDepth) {
+      visit(node, bound_squared_m2);
+      return;
+    }
+    const Vec3 center_m = NodeMin(cell, level) + Vec3::Constant(0.5F * NodeSize(level));
+    const unsigned nearest = (x_m.x() >= center_m.x() ? 1U : 0U) | (x_m.y() >= center_m.y() ? 2U : 0U) |
+                             (x_m.z() >= center_m.z() ? 4U : 0U);
+    // The child on x's side, its neighbours across one, two and three faces.
+    constexpr std::array<unsigned, 8> kFlips{0, 1, 2, 4, 3, 5, 6, 7};
+    for (const unsigned flip : kFlips) {
+      const unsigned octant = nearest ^ flip;
+      const Handle child = at(node).child[octant];
+      if (child == kNoHandle) continue;
+      const auto o = static_cast<int>(octant);
+      VisitNearer(child, level + 1, Cell{2 * cell.x + (o & 1), 2 * cell.y + ((o >> 1) & 1), 2 * cell.z + (o >> 2)}, x_m,
+                  bound_squared_m2, visit);
+    }
+  }
+
+  [[nodiscard]] float NodeSize(int level) const noexcept {
+    return cell_size_m_ * static_cast<float>(1 << (kDepth - level));
+  }
+  /// Corner of a node, given its integer coordinates among the nodes of its level.
+  [[nodiscard]] Vec3 NodeMin(const Cell& cell, int level) const noexcept {
+    const int up = kDepth - level;
+    return CellMin(Cell{cell.x << up, cell.y << up, cell.z << up});
+  }
+  [[nodiscard]] float DistanceSquaredToNode(const Vec3& x_m, const Cell& cell, int level) const noexcept {
+    const Vec3 offset = x_m - NodeMin(cell, level);
+    const Vec3 inside = offset.cwiseMax(0.0F).cwiseMin(NodeSize(level));
+    return (offset - inside).squaredNorm();
   }
 
   std::array<Node, static_cast<std::size_t>(kMaxNodes)> nodes_;

@@ -23,11 +23,12 @@ class PoseSearch {
 
   /// @param T_predicted Pose by constant velocity.
   /// @param T_previous Pose of the previous frame.
+  /// @param velocity_known false: the object was just started, the prediction is no more than a guess.
   [[nodiscard]] static Start Find(const RegistrationType& registration, const Field& field, const Model& edges,
                                   const RegistrationConfig& config, const PoseObjectFromCamera& T_predicted,
-                                  const PoseObjectFromCamera& T_previous) noexcept {
+                                  const PoseObjectFromCamera& T_previous, bool velocity_known) noexcept {
     Start best{T_predicted, 1};
-    if (registration.Score(field, config, T_predicted) >= config.hypothesis_score) return best;
+    if (velocity_known && registration.Score(field, config, T_predicted) >= config.hypothesis_score) return best;
     const std::array<PoseObjectFromCamera, 5> starts{T_predicted, T_previous, Recentred(registration, field, T_predicted),
                                                      Recentred(registration, field, T_previous),
                                                      HalfWay(registration.center_c(), T_previous, T_predicted)};
@@ -36,7 +37,8 @@ class PoseSearch {
       const auto aligned =
           registration.Align(field, edges, config, T_start, T_start, config.hypothesis_iterations);
       if (!aligned.solved) continue;
-      const float score = registration.Score(field, config, aligned.T_oc);
+      const float score = registration.Score(field, config, aligned.T_oc) +
+                          kEdgeShare * registration.EdgeScore(edges, config, aligned.T_oc);
       if (score > best_score) {
         best_score = score;
         best.T_oc = aligned.T_oc;
@@ -47,6 +49,8 @@ class PoseSearch {
   }
 
  private:
+  static constexpr float kEdgeShare = 0.3F;
+
   /// The same rotation, with the observed centroid put onto the centroid of the model's part that faces the camera.
   [[nodiscard]] static PoseObjectFromCamera Recentred(const RegistrationType& registration, const Field& field,
                                                       const PoseObjectFromCamera& T_oc) noexcept {

@@ -73,6 +73,19 @@ class Registration {
     return sum / static_cast<float>(wanted);
   }
 
+  /// Share of the observed occluding edges that lie on edges of the model, 0..1. Tells apart poses between which the
+  /// surface could slide.
+  [[nodiscard]] float EdgeScore(const Model& model_edges, const RegistrationConfig& config,
+                                const PoseObjectFromCamera& T_oc) const noexcept {
+    if (edges_->empty()) return 0.0F;
+    float sum = 0.0F;
+    for (const EdgePoint& point : *edges_) {
+      const EdgeResidual edge = FindEdge(model_edges, config, point, T_oc, config.match_radius_m);
+      if (edge.found) sum += GemanMcClure(edge.residual_m, 2.0F * edge.sigma_m);
+    }
+    return sum / static_cast<float>(edges_->size());
+  }
+
   /// Iterates closed-form steps from T_start.
   /// @param T_predicted Centre of the temporal regulariser.
   [[nodiscard]] Result Align(const Field& field, const Model& model_edges, const RegistrationConfig& config,
@@ -139,7 +152,7 @@ class Registration {
                  Result& result, NormalEquations& equations) const noexcept {
     const Vec3 x_o = result.T_oc * sample.position_m;
     const Vec3 n_o = result.T_oc.rotation() * sample.normal;
-    auto match = field.FindMatch(x_o, n_o, config.match_radius_m, config.min_normal_cos);
+    auto match = field.FindMatch(x_o, n_o, config.match_radius_m + scale_m, config.min_normal_cos);
     if (!match.found) {
       if (match.normal_mismatch) {
         ++result.normal_mismatch;
@@ -173,25 +186,45 @@ class Registration {
     if (robust > 0.25F) ++equations.inliers;
   }
 
-  void AddEdge(const Model& model_edges, const RegistrationConfig& config, const EdgePoint& point, float scale_m,
-               const Result& result, NormalEquations& equations) const noexcept {
-    const Mat3& r = result.T_oc.rotation();
-    const EdgePoint moved{result.T_oc * point.position_m, r * point.direction, r * point.normal, r * point.ray,
-                          point.pixel_m};
-    const auto* edge = model_edges.FindNearest(moved, config.match_radius_m);
-    if (edge == nullptr) return;
+  struct EdgeResidual {
+    bool found = false;
+    Vec3 position_m = Vec3::Zero();  ///< Object frame.
+    Vec3 gradient = Vec3::Zero();
+    float residual_m = 0.0F;
+    float sigma_m = 0.0F;
+  };
+
+  [[nodiscard]] static EdgeResidual FindEdge(const Model& model_edges, const RegistrationConfig& config,
+                                             const EdgePoint& point, const PoseObjectFromCamera& T_oc, float radius_m) noexcept {
+    const Mat3& r = T_oc.rotation();
+    const EdgePoint moved{T_oc * point.position_m, r * point.direction, r * point.normal, r * point.ray, point.pixel_m};
+    EdgeResidual result;
+    const auto* edge = model_edges.FindNearest(moved, radius_m);
+    if (edge == nullptr) return result;
     // The outline in the image moves only across the ray and across the edge.
     const Vec3 across = moved.ray.cross(edge->direction);
     const float sine = across.norm();
-    if (sine < 0.3F) return;  // the edge points at the camera
-    const Vec3 gradient = across / sine;
-    const float residual_m = gradient.dot(moved.position_m - edge->position_m);
-    const float sigma_m = config.edge_std_px * point.pixel_m;
-    const float robust = GemanMcClure(residual_m, std::fmax(scale_m, config.robust_scale_sigmas * sigma_m));
-    equations.Add(moved.position_m - result.center_m, gradient, residual_m, robust / (sigma_m * sigma_m));
+    if (sine < kFewestEdgeSine) return result;  // the edge points at the camera
+    result.found = true;
+    result.position_m = moved.position_m;
+    result.gradient = across / sine;
+    result.residual_m = result.gradient.dot(moved.position_m - edge->position_m);
+    result.sigma_m = config.edge_std_px * point.pixel_m;
+    return result;
+  }
+
+  static void AddEdge(const Model& model_edges, const RegistrationConfig& config, const EdgePoint& point, float scale_m,
+                      const Result& result, NormalEquations& equations) noexcept {
+    const EdgeResidual edge = FindEdge(model_edges, config, point, result.T_oc, config.match_radius_m + scale_m);
+    if (!edge.found) return;
+    const float robust =
+        GemanMcClure(edge.residual_m, std::fmax(scale_m, config.robust_scale_sigmas * edge.sigma_m));
+    equations.Add(edge.position_m - result.center_m, edge.gradient, edge.residual_m,
+                  robust / (edge.sigma_m * edge.sigma_m));
     if (robust > 0.25F) ++equations.edge_inliers;
   }
 
+  static constexpr float kFewestEdgeSine = 0.3F;
   static constexpr float kCoarseScale_m = 0.002F;
   Samples samples_;
   Vec3 center_c_ = Vec3::Zero();

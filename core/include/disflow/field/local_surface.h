@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+
+#include "disflow/field/distance_field.h"
+#include "disflow/memory/fixed_vector.h"
+
+namespace disflow {
+
+/// The distance field around a place, put together from the local GPs that know it. GPs of one side are blended, so that
+/// the field is continuous across cell borders; sides that meet at a crease are combined as in constructive solid
+/// geometry: the larger distance where the object is convex, the smaller one where it is concave.
+///
+/// A view of the model: make a new one after the model has changed. Bounded work, no heap.
+template <class Limits>
+class LocalSurface {
+ public:
+  using Field = DistanceField<Limits>;
+  using ClusterType = typename Field::ClusterType;
+
+  struct Value {
+    bool found = false;
+    float distance_m = 0.0F;
+    Vec3 gradient = Vec3::Zero();  ///< Unit length.
+    Handle cluster = kNoHandle;    ///< Holder of the nearest sample.
+    const ModelSample* nearest = nullptr;
+    float nearest_m = 0.0F;  ///< Distance to the nearest sample.
+  };
+
+  explicit LocalSurface(const Field& field) noexcept
+      : field_(field),
+        blend_squared_m2_(Square(std::fmin(std::fmax(field.config().overlap_m, 1.5F * field.config().merge_radius_m),
+                                           field.config().cell_size_m))) {}
+
+  /// Collects the clusters that matter within a box for points whose nearest sample is at most reach_m away.
+  void Gather(const Vec3& low_m, const Vec3& high_m, float reach_m) noexcept {
+    near_.clear();
+    reach_squared_m2_ = Square(reach_m);
+    const Vec3 margin = Vec3::Constant(std::sqrt(reach_squared_m2_ + blend_squared_m2_));
+    const auto& store = field_.store();
+    store.tree().ForEachLeafInBox(low_m - margin, high_m + margin, [&](const OctreeCell&, Handle leaf) {
+      for (Handle h = store.tree().head(leaf); h != kNoHandle; h = store[h].next) (void)near_.push_back({h, nullptr, 0.0F});
+    });
+  }
+
+  /// The field at a point of the gathered box. Depends on the point alone, not on the box that was gathered.
+  [[nodiscard]] Value Evaluate(const Vec3& x_m) noexcept {
+    Value value;
+    FindNearestSamples(x_m, value);
+    if (!value.found) return value;
+    Voices voices;
+    SelectVoices(Square(value.nearest_m), voices);
+    Combine(x_m, voices, value);
+    return value;
+  }
+
+ private:
+  static constexpr int kMaxNear = 192;
+  static constexpr int kMaxVoices = 12;
+  static constexpr int kMaxSides = 4;
+
+  /// A cluster near the point, and its sample nearest to it.
+  struct Near {
+    Handle handle;
+    const ModelSample* sample;
+    float squared_m2;
+  };
+  using Voices = FixedVector<Near, kMaxVoices>;
+
+  /// Weighted sums over the clusters of one side.
+  struct Side {
+    Vec3 leader;  ///< Unit gradient of its nearest cluster.
+    float weight;
+    float distance_sum;
+    Vec3 gradient_sum;
+    Vec3 centroid_sum;
+    Vec3 normal_sum;
+  };
+
+  [[nodiscard]] static float Square(float value) noexcept { return value * value; }
+
+  void FindNearestSamples(const Vec3& x_m, Value& value) noexcept {
+    const auto& store = field_.store();
+    float best = reach_squared_m2_;
+    for (Near& near : near_) {
+      near.sample = nullptr;
+      near.squared_m2 = best + blend_squared_m2_;
+      const ClusterType& cluster = store[near.handle];
+      if (store.tree().DistanceSquaredToCell(x_m, cluster.cell) > near.squared_m2) continue;
+      for (const ModelSample& sample : cluster.samples) {
+        const float squared = (sample.position_m - x_m).squaredNorm();
+        if (squared >= near.squared_m2) continue;
+        near.squared_m2 = squared;
+        near.sample = &sample;
+      }
+      if (near.sample == nullptr || near.squared_m2 >= best) continue;
+      best = near.squared_m2;
+      value.found = true;
+      value.cluster = near.handle;
+      value.nearest = near.sample;
+    }
+    value.nearest_m = std::sqrt(best);
+  }
+
+  /// The clusters whose weight is not zero, nearest first.
+  void SelectVoices(float best_squared, Voices& voices) const noexcept {
+    for (const Near& near : near_) {
+      if (near.sample == nullptr || near.squared_m2 >= best_squared + blend_squared_m2_) continue;
+      if (voices.full()) {
+        if (near.squared_m2 >= voices.back().squared_m2) continue;
+        voices.truncate(kMaxVoices - 1);
+      }
+      (void)voices.push_back(near);
+      for (int i = voices.size() - 1; i > 0 && voices[i].squared_m2 < voices[i - 1].squared_m2; --i) {
+        std::swap(voices[i], voices[i - 1]);
+      }
+    }
+  }
+
+  void Combine(const Vec3& x_m, const Voices& voices, Value& value) const noexcept {
+    FixedVector<Side, kMaxSides> sides;
+    for (const Near& voice : voices) {
+      const ClusterType& cluster = field_.store()[voice.handle];
+      Vec3 gradient;
+      const float distance_m = field_.EvaluateCluster(cluster, x_m, gradient);
+      const float norm = gradient.norm();
+      const Vec3 direction = norm > kMinGradientNorm ? Vec3(gradient / norm) : cluster.mean_normal;
+      const float weight = Square(1.0F - (voice.squared_m2 - voices[0].squared_m2) / blend_squared_m2_);
+      Side* side = FindSide(direction, sides);
+      if (side == nullptr) {
+        if (!sides.push_back({direction, 0.0F, 0.0F, Vec3::Zero(), Vec3::Zero(), Vec3::Zero()})) continue;
+        side = &sides.back();
+      }
+      side->weight += weight;
+      side->distance_sum += weight * distance_m;
+      side->gradient_sum += weight * direction;
+      side->centroid_sum += weight * cluster.centroid_m;
+      side->normal_sum += weight * cluster.mean_normal;
+    }
+    value.distance_m = sides[0].distance_sum / sides[0].weight;
+    value.gradient = sides[0].gradient_sum / sides[0].weight;
+    for (int i = 1; i < sides.size(); ++i) Join(sides[0], sides[i], value);
+    value.gradient.normalize();
+  }
+
+  template <class Sides>
+  [[nodiscard]] Side* FindSide(const Vec3& direction, Sides& sides) const noexcept {
+    for (Side& side : sides) {
+      if (side.leader.dot(direction) > field_.config().crease_cos) return &side;
+    }
+    return nullptr;
+  }
+
+  /// Cuts the nearest side's half-space by another one (convex) or adds it (concave).
+  static void Join(const Side& first, const Side& other, Value& value) noexcept {
+    const Vec3 apart = first.centroid_sum / first.weight - other.centroid_sum / other.weight;
+    const bool convex = apart.dot(first.normal_sum / first.weight - other.normal_sum / other.weight) > 0.0F;
+    const float distance_m = other.distance_sum / other.weight;
+    if (convex == (distance_m < value.distance_m)) return;
+    // A side that comes into reach fades in: no jump.
+    constexpr float kFullWeight = 0.1F;
+    const float share = std::fmin(other.weight / kFullWeight, 1.0F);
+    value.distance_m += share * (distance_m - value.distance_m);
+    value.gradient += share * (other.gradient_sum / other.weight - value.gradient);
+  }
+
+  static constexpr float kMinGradientNorm = 0.3F;
+
+  const Field& field_;
+  float blend_squared_m2_;
+  float reach_squared_m2_ = 0.0F;
+  FixedVector<Near, kMaxNear> near_;
+};
+
+}  // namespace disflow
