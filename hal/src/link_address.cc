@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "disflow/hal/link_address.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cstring>
 #include <system_error>
@@ -45,17 +46,26 @@ template <std::size_t kSize>
   return true;
 }
 
+/// std::string_view::substr() may throw, which nothing here may.
+[[nodiscard]] std::string_view After(std::string_view text, std::size_t count) noexcept {
+  text.remove_prefix(std::min(count, text.size()));
+  return text;
+}
+[[nodiscard]] std::string_view Before(std::string_view text, std::size_t count) noexcept {
+  return {text.data(), std::min(count, text.size())};
+}
+
 /// Splits "rest?query"; both parts may be empty.
 void SplitQuery(std::string_view text, std::string_view& rest, std::string_view& query) noexcept {
   const std::size_t mark = text.find('?');
-  rest = text.substr(0, mark);
-  query = mark == std::string_view::npos ? std::string_view{} : text.substr(mark + 1);
+  rest = Before(text, mark);
+  query = mark == std::string_view::npos ? std::string_view{} : After(text, mark + 1);
 }
 
 /// Both kinds know exactly one option, `name`=number.
 [[nodiscard]] bool ParseOption(std::string_view query, std::string_view name, std::uint32_t max,
                                std::uint32_t& value) noexcept {
-  return query.starts_with(name) && ParseNumber(query.substr(name.size()), max, value);
+  return query.starts_with(name) && ParseNumber(After(query, name.size()), max, value);
 }
 
 [[nodiscard]] Fault ParseUdp(std::string_view uri, std::string_view text,
@@ -67,9 +77,9 @@ void SplitQuery(std::string_view text, std::string_view& rest, std::string_view&
   if (colon == std::string_view::npos) {
     return BadUri(uri, "the port is missing; write udp://HOST:PORT");
   }
-  std::string_view host = endpoint.substr(0, colon);
+  std::string_view host = Before(endpoint, colon);
   if (host.size() >= 2 && host.front() == '[' && host.back() == ']') {
-    host = host.substr(1, host.size() - 2);
+    host = Before(After(host, 1), host.size() - 2);
   } else if (host.find(':') != std::string_view::npos) {
     return BadUri(uri, "an IPv6 address needs brackets; write udp://[ADDRESS]:PORT");
   }
@@ -77,7 +87,7 @@ void SplitQuery(std::string_view text, std::string_view& rest, std::string_view&
     return BadUri(uri, "the host is missing or too long; write udp://HOST:PORT");
   }
   std::uint32_t port = 0;
-  if (!ParseNumber(endpoint.substr(colon + 1), kMaxPort, port)) {
+  if (!ParseNumber(After(endpoint, colon + 1), kMaxPort, port)) {
     return BadUri(uri, "the port is not a number from 1 to 65535");
   }
   address.port = static_cast<std::uint16_t>(port);
@@ -112,10 +122,10 @@ Fault ParseLinkAddress(std::string_view uri, LinkAddress& address) noexcept {
   Fault fault;
   if (uri.starts_with(kUdp)) {
     parsed.kind = LinkAddress::Kind::kUdp;
-    fault = ParseUdp(uri, uri.substr(kUdp.size()), parsed);
+    fault = ParseUdp(uri, After(uri, kUdp.size()), parsed);
   } else if (uri.starts_with(kSerial)) {
     parsed.kind = LinkAddress::Kind::kSerial;
-    fault = ParseSerial(uri, uri.substr(kSerial.size()), parsed);
+    fault = ParseSerial(uri, After(uri, kSerial.size()), parsed);
   } else {
     fault = BadUri(uri, "unknown kind; write udp://HOST:PORT or serial:///dev/NAME?baud=RATE");
   }

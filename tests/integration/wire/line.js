@@ -41,7 +41,7 @@ async function openSerial() {
   const stream = new tty.ReadStream(fd);
   stream.on('error', () => {});  // The line hangs up at the end of the test.
   return {
-    uri: `serial://${near}?baud=921600`,
+    uri: `serial://${near}?baud=115200`,
     onBytes: (callback) => stream.on('data', callback),
     write: async (bytes) => fs.writeSync(fd, bytes),
     close: () => {

@@ -47,7 +47,7 @@ TEST(LinkAddress, SerialWithoutBaud_TakesTheDefault) {
 TEST(LinkAddress, LongestNames_Fit) {
   const std::string host(LinkAddress::kMaxHostLength, 'h');
   EXPECT_EQ(Parsed("udp://" + host + ":1").host, host);
-  const std::string device = "/" + std::string(LinkAddress::kMaxDeviceLength - 1, 'd');
+  const std::string device = std::string("/").append(LinkAddress::kMaxDeviceLength - 1, 'd');
   EXPECT_EQ(Parsed("serial://" + device).device, device);
 }
 

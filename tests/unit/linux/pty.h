@@ -26,6 +26,8 @@ class Pty {
 
   [[nodiscard]] const std::string& device() const { return device_; }
 
+  [[nodiscard]] int master() const { return master_.get(); }
+
   /// The near end's settings, seen from here.
   [[nodiscard]] termios settings() const {
     termios result{};
