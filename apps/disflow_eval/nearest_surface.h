@@ -24,15 +24,19 @@ class NearestSurface {
 
   [[nodiscard]] const std::vector<SurfacePoint>& samples() const { return samples_; }
 
-  /// On a mesh: the nearest point of the triangles that own the samples nearby, so the result is
-  /// not limited by the spacing of the samples. On a cloud: its nearest point.
+  /// On a mesh: the nearest point of the triangles with an anchor nearby, so the result is not
+  /// limited by the spacing of the samples. On a cloud: its nearest point.
   [[nodiscard]] Hit Find(const Vec3d& query) const;
 
  private:
   const Surface& surface_;
   std::vector<SurfacePoint> samples_;
-  std::vector<Vec3d> positions_;
-  PointIndex index_;
+  std::vector<Vec3d> sample_positions_;
+  PointIndex sample_index_;
+  // The samples, and the centre of every triangle that is too small to have got one.
+  std::vector<SurfacePoint> anchors_;
+  std::vector<Vec3d> anchor_positions_;
+  PointIndex anchor_index_;
 };
 
 }  // namespace disflow::apps

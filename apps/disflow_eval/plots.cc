@@ -76,7 +76,9 @@ class Script {
                     rows, columns, plot.title.c_str());
     plots_.push_back(plot);
   }
-  void Panel(const std::string& commands) { text_ += "set autoscale\n" + commands + "\n"; }
+  void Panel(const std::string& commands) {
+    text_ += "set autoscale\nset autoscale xfix\n" + commands + "\n";
+  }
   void End() { text_ += "unset multiplot\nunset output\n"; }
 
   [[nodiscard]] const std::string& text() const { return text_; }
@@ -89,10 +91,11 @@ class Script {
       "} else {\n"
       "  set terminal png size 1200,720\n"
       "}\n"
-      "set grid lc rgb '#d8d8d8'\n"
+      "set grid lc rgb '#b0b0b0' lw 0.7\n"
       "set border 3 lc rgb '#606060'\n"
       "set tics nomirror\n"
-      "set key top right opaque noautotitle\n"
+      "set key above right horizontal noautotitle\n"
+      "set lmargin 10\n"
       "set style data lines\n"
       "truth = '#9a9a9a'; estimate = '#1f6fb4'; other = '#d1601f'\n";
   std::vector<Plot> plots_;
@@ -139,7 +142,7 @@ void AddAccuracyPlot(const Report& report, Script& script) {
   for (const double end_mm : {kMillimetres * kAddLimit_m, near_mm}) {
     script.Panel(
         Format("set xlabel 'threshold [mm]'; set ylabel 'frames [%%]'\n"
-               "set xrange [0:%.4f]; set yrange [0:102]; set key bottom right\n"
+               "set xrange [0:%.4f]; set yrange [0:102]\n"
                "plot 'add.dat' using 1:3 with steps lc rgb estimate title 'ADD', "
                "'' using 2:3 with steps lc rgb other dt 2 title 'ADD-S'",
                end_mm));
@@ -154,7 +157,7 @@ void AddTimePlot(const Report& report, Script& script) {
   script.Begin({"time.png", "Processing time per frame"}, 1, 1);
   script.Panel(
       Format("set xlabel 'time [s]'; set ylabel 'total [ms]'; set yrange [0:*]\n"
-             "set key top right\n"
+
              "plot 'frames.dat' using 1:8 lc rgb estimate title 'frame', "
              "%.5f lc rgb 'black' title 'median %.2f ms', "
              "%.5f lc rgb other title '99th percentile %.2f ms'",

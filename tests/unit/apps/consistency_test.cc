@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "consistency.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "run_builder.h"
+
+namespace disflow::apps {
+namespace {
+
+constexpr double kPositionStd_m = 0.002;
+constexpr double kRotationStd_rad = 0.01;
+
+Mat6d Diagonal(double first_std, double second_std) {
+  Vec6d variances;
+  variances << Vec3d::Constant(first_std * first_std), Vec3d::Constant(second_std * second_std);
+  return variances.asDiagonal();
+}
+
+/// Spoils every row but the first with Gaussian noise of the covariance that the row states.
+void AddNoise(MadeUpRun& made, double stated_over_true) {
+  std::mt19937 generator(7);
+  std::normal_distribution<double> normal;
+  const auto draw = [&](double std) {
+    return Vec3d(std * normal(generator), std * normal(generator), std * normal(generator));
+  };
+  const double s = stated_over_true;
+  for (std::size_t k = 0; k < made.estimates.rows.size(); ++k) {
+    EstimateRow& row = made.estimates.rows[k];
+    row.pose_covariance = Diagonal(s * kPositionStd_m, s * kRotationStd_rad);
+    row.twist_covariance = Diagonal(s * 0.02, s * 0.1);
+    if (k == 0) continue;
+    row.T_co = EstimatedPose(Mat3d(ExpSo3(draw(kRotationStd_rad)) * row.T_co.rotation()),
+                             Vec3d(row.T_co.translation() + draw(kPositionStd_m)));
+    row.twist.linear_mps += draw(0.02);
+    row.twist.angular_rps += draw(0.1);
+  }
+}
+
+TEST(ChiSquareTest, Bounds_AreTheQuantilesThatTheirNamesSay) {
+  EXPECT_NEAR(ChiSquare6Cdf(kChiSquare6At2_5), 0.025, 1e-12);
+  EXPECT_NEAR(ChiSquare6Cdf(kChiSquare6At95), 0.95, 1e-12);
+  EXPECT_NEAR(ChiSquare6Cdf(kChiSquare6At97_5), 0.975, 1e-12);
+  EXPECT_DOUBLE_EQ(ChiSquare6Cdf(0.0), 0.0);
+}
+
+TEST(ConsistencyTest, KnownError_GivesKnownNees) {
+  MadeUpRun made = MakeRun(2);
+  EstimateRow& row = made.estimates.rows[1];
+  row.pose_covariance = Diagonal(0.001, 0.01);
+  row.T_co = EstimatedPose(Mat3d(ExpSo3(Vec3d(0.0, 0.03, 0.0)) * row.T_co.rotation()),
+                           Vec3d(row.T_co.translation() + Vec3d(0.002, 0.0, 0.0)));
+  const auto result = EvaluatePoseConsistency(Align(made.truth, made.estimates));
+  ASSERT_TRUE(result.has_value());
+  ASSERT_EQ(result->nees.size(), 1U);
+  EXPECT_NEAR(result->nees[0], 4.0 + 9.0, 1e-6);
+}
+
+TEST(ConsistencyTest, TruthfulCovariance_IsConsistentWhereverTheTrackersOriginLies) {
+  MadeUpRun made = MakeRun(3000);
+  AddNoise(made, 1.0);
+  const AlignedTrajectory run = Align(made.truth, made.estimates);
+  for (const auto& result : {EvaluatePoseConsistency(run), EvaluateTwistConsistency(run)}) {
+    ASSERT_TRUE(result.has_value());
+    EXPECT_EQ(result->nees.size(), 2999U);
+    // Standard error of the mean of 2999 chi-square(6) values: sqrt(12 / 2999) = 0.063.
+    EXPECT_NEAR(result->statistics.mean, 6.0, 0.3);
+    EXPECT_NEAR(result->share_inside, 0.95, 0.02);
+    EXPECT_NEAR(result->share_below_95, 0.95, 0.02);
+  }
+}
+
+TEST(ConsistencyTest, TooSmallCovariance_ShowsAsOverconfident) {
+  MadeUpRun made = MakeRun(500);
+  AddNoise(made, 0.5);
+  const auto result = EvaluatePoseConsistency(Align(made.truth, made.estimates));
+  ASSERT_TRUE(result.has_value());
+  EXPECT_NEAR(result->statistics.mean, 24.0, 2.0);
+  EXPECT_LT(result->share_below_95, 0.3);
+}
+
+TEST(ConsistencyTest, TooLargeCovariance_IsBelowTheBoundButNotInside) {
+  MadeUpRun made = MakeRun(500);
+  AddNoise(made, 5.0);
+  const auto result = EvaluatePoseConsistency(Align(made.truth, made.estimates));
+  ASSERT_TRUE(result.has_value());
+  EXPECT_DOUBLE_EQ(result->share_below_95, 1.0);
+  EXPECT_LT(result->share_inside, 0.05);
+}
+
+TEST(ConsistencyTest, CovarianceThatIsNotPositiveDefinite_CountsAsOutside) {
+  MadeUpRun made = MakeRun(3);
+  made.estimates.rows[1].pose_covariance = Mat6d::Zero();
+  made.estimates.rows[2].pose_covariance = -Mat6d::Identity();
+  const auto result = EvaluatePoseConsistency(Align(made.truth, made.estimates));
+  ASSERT_TRUE(result.has_value());
+  EXPECT_EQ(result->singular, 2U);
+  EXPECT_EQ(result->share_inside, 0.0);
+  EXPECT_EQ(result->share_below_95, 0.0);
+}
+
+TEST(ConsistencyTest, NoCovarianceOrOnlyTheAlignedFrames_GivesNothing) {
+  MadeUpRun made = MakeRun(3);
+  EXPECT_FALSE(EvaluatePoseConsistency(Align(made.truth, made.estimates)).has_value());
+  made.estimates.rows[0].pose_covariance = Mat6d::Identity();
+  EXPECT_FALSE(EvaluatePoseConsistency(Align(made.truth, made.estimates)).has_value());
+}
+
+}  // namespace
+}  // namespace disflow::apps
