@@ -56,37 +56,43 @@ struct BadUri {
   const char* says;
 };
 
-class BadLinkAddress : public ::testing::TestWithParam<BadUri> {};
-
-TEST_P(BadLinkAddress, IsRefusedWithTheReasonAndChangesNothing) {
-  LinkAddress address;
-  address.port = 4711;
-  const Fault fault = ParseLinkAddress(GetParam().uri, address);
-  EXPECT_EQ(fault.status, Status::kInvalidUri);
-  EXPECT_NE(std::string(fault.message).find(GetParam().says), std::string::npos) << fault.message;
-  EXPECT_EQ(address.port, 4711);
+TEST(LinkAddress, BadOne_IsRefusedWithTheReasonAndChangesNothing) {
+  const BadUri bad_uris[] = {{"", "unknown kind"},
+                             {"tcp://a:1", "unknown kind"},
+                             {"UDP://a:1", "unknown kind"},
+                             {"udp://", "port is missing"},
+                             {"udp://host", "port is missing"},
+                             {"udp://:14550", "host is missing"},
+                             {"udp://[]:14550", "host is missing"},
+                             {"udp://::1:14550", "brackets"},
+                             {"udp://a:", "port is not"},
+                             {"udp://a:0", "port is not"},
+                             {"udp://a:65536", "port is not"},
+                             {"udp://a:-1", "port is not"},
+                             {"udp://a:12x", "port is not"},
+                             {"udp://a:99999999999999", "port is not"},
+                             {"udp://a:1?bind=", "?bind=PORT"},
+                             {"udp://a:1?bind=70000", "?bind=PORT"},
+                             {"udp://a:1?baud=1", "?bind=PORT"},
+                             {"udp://a:1?bind=1&bind=2", "?bind=PORT"},
+                             {"udp://" + std::string(254, 'h') + ":1", "too long"},
+                             {std::string("udp://a\0b:1", 11), "host"},
+                             {"serial://", "absolute path"},
+                             {"serial://ttyS0", "absolute path"},
+                             {"serial:///" + std::string(200, 'd'), "absolute path"},
+                             {"serial:///dev/a?baud=0", "?baud=RATE"},
+                             {"serial:///dev/a?baud=4000001", "?baud=RATE"},
+                             {"serial:///dev/a?speed=9600", "?baud=RATE"},
+                             {"serial:///dev/a?baud=9600 ", "?baud=RATE"}};
+  for (const BadUri& bad : bad_uris) {
+    LinkAddress address;
+    address.port = 4711;
+    const Fault fault = ParseLinkAddress(bad.uri, address);
+    EXPECT_EQ(fault.status, Status::kInvalidUri) << bad.uri;
+    EXPECT_NE(std::string(fault.message).find(bad.says), std::string::npos) << fault.message;
+    EXPECT_EQ(address.port, 4711) << bad.uri;
+  }
 }
-
-INSTANTIATE_TEST_SUITE_P(
-    LinkAddress, BadLinkAddress,
-    ::testing::Values(
-        BadUri{"", "unknown kind"}, BadUri{"tcp://a:1", "unknown kind"},
-        BadUri{"UDP://a:1", "unknown kind"}, BadUri{"udp://", "port is missing"},
-        BadUri{"udp://host", "port is missing"}, BadUri{"udp://:14550", "host is missing"},
-        BadUri{"udp://[]:14550", "host is missing"}, BadUri{"udp://::1:14550", "brackets"},
-        BadUri{"udp://a:", "port is not"}, BadUri{"udp://a:0", "port is not"},
-        BadUri{"udp://a:65536", "port is not"}, BadUri{"udp://a:-1", "port is not"},
-        BadUri{"udp://a:12x", "port is not"}, BadUri{"udp://a:99999999999999", "port is not"},
-        BadUri{"udp://a:1?bind=", "?bind=PORT"}, BadUri{"udp://a:1?bind=70000", "?bind=PORT"},
-        BadUri{"udp://a:1?baud=1", "?bind=PORT"}, BadUri{"udp://a:1?bind=1&bind=2", "?bind=PORT"},
-        BadUri{"udp://" + std::string(254, 'h') + ":1", "too long"},
-        BadUri{std::string("udp://a\0b:1", 11), "host"}, BadUri{"serial://", "absolute path"},
-        BadUri{"serial://ttyS0", "absolute path"},
-        BadUri{"serial:///" + std::string(200, 'd'), "absolute path"},
-        BadUri{"serial:///dev/a?baud=0", "?baud=RATE"},
-        BadUri{"serial:///dev/a?baud=4000001", "?baud=RATE"},
-        BadUri{"serial:///dev/a?speed=9600", "?baud=RATE"},
-        BadUri{"serial:///dev/a?baud=9600 ", "?baud=RATE"}));
 
 }  // namespace
 }  // namespace disflow::hal

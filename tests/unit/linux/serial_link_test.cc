@@ -151,6 +151,8 @@ TEST_F(OpenSerialLink, ClosedLink_RefusesWork) {
 struct Rate {
   std::uint32_t baud;
   speed_t constant;
+
+  friend void PrintTo(const Rate& rate, std::ostream* out) { *out << rate.baud; }
 };
 
 class SerialRate : public ::testing::TestWithParam<Rate> {};
