@@ -85,6 +85,12 @@ TEST(Telemetry, UnusableCovariance_IsMarkedUnknownByNaNInItsFirstElement) {
   }
 }
 
+TEST(Telemetry, ObjectAlignedWithTheCamera_HasTheFixedRotationFromOpticalToBodyAxes) {
+  // docs/wire-format.md promises it.
+  const std::array<float, 4> expected{0.5F, 0.5F, 0.5F, 0.5F};
+  EXPECT_EQ(Sent(Tracked()).q, expected);
+}
+
 TEST(Telemetry, WorldPoseAskedForButNotKnown_FallsBackToTheCameraAndSaysSo) {
   EXPECT_EQ(MakeOdometry(Tracked(), MavFrame::kLocalFrd).frame_id, 12);
 }
