@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "evaluation.h"
 
+#include "errors.h"
 #include "ground_truth.h"
 #include "mesh_metrics.h"
 #include "model_file.h"
@@ -13,18 +14,25 @@ namespace {
 /// Points for ADD from a mesh; ADD changes by less than a thousandth with more.
 constexpr std::size_t kAddPoints = 2000;
 
+std::filesystem::path FindModel(const EvaluationInput& input) {
+  if (!input.model.empty()) return input.model;
+  const std::filesystem::path file = input.sequence_dir / "gt" / "model.obj";
+  if (!std::filesystem::exists(file)) {
+    throw InputError(file, "does not exist; name the object's model with --model");
+  }
+  return file;
+}
+
 }  // namespace
 
 Report Evaluate(const EvaluationInput& input) {
   Report report;
   report.sequence = input.sequence_dir.string();
   report.csv = input.csv.string();
-  const std::filesystem::path model_file =
-      input.model.empty() ? input.sequence_dir / "gt" / "model.obj" : input.model;
-  report.model = model_file.string();
-
   const GroundTruth truth = LoadGroundTruth(input.sequence_dir);
   report.estimates = LoadEstimates(input.csv, static_cast<int>(truth.T_ct.size()));
+  const std::filesystem::path model_file = FindModel(input);
+  report.model = model_file.string();
   const Surface model = LoadModel(model_file);
   const std::vector<Vec3d> model_points = Positions(SampleSurface(model, kAddPoints));
 

@@ -23,13 +23,15 @@ std::string_view Trim(std::string_view text) {
   return text.substr(first, text.find_last_not_of(kSpaces) - first + 1);
 }
 
-void WriteDirectly(const std::filesystem::path& file, std::string_view text) {
+/// @param target Named in the error message.
+void WriteDirectly(const std::filesystem::path& file, std::string_view text,
+                   const std::filesystem::path& target) {
   errno = 0;
   std::ofstream stream(file, std::ios::binary | std::ios::trunc);
   stream.write(text.data(), static_cast<std::streamsize>(text.size()));
   stream.close();
   if (!stream) {
-    throw OutputError(file, std::string("cannot be written: ") + std::strerror(errno));
+    throw OutputError(target, std::string("cannot be written: ") + std::strerror(errno));
   }
 }
 
@@ -51,13 +53,13 @@ std::string ReadFile(const std::filesystem::path& file) {
 void WriteFile(const std::filesystem::path& file, std::string_view text) {
   std::error_code error;
   if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error)) {
-    WriteDirectly(file, text);
+    WriteDirectly(file, text, file);
     return;
   }
   std::filesystem::path partial = file;
   partial += ".partial-" + std::to_string(::getpid());
   try {
-    WriteDirectly(partial, text);
+    WriteDirectly(partial, text, file);
   } catch (const OutputError&) {
     std::filesystem::remove(partial, error);
     throw;
