@@ -37,7 +37,7 @@ struct Cluster {
   void Start(const OctreeCell& in_cell, Handle in_leaf, Handle next_in_leaf) noexcept {
     cell = in_cell;
     samples.clear();
-    gp = {};
+    gp.Clear();
     position_sum_m.setZero();
     normal_sum.setZero();
     leaf = in_leaf;

@@ -104,7 +104,7 @@ void DistanceField<Limits>::TrainCluster(ClusterType& cluster) noexcept {
   const int count = SpreadSelection(candidates, cluster.centroid_m);
   const std::span<const GpTrainingSample> samples(candidates.begin(), static_cast<std::size_t>(count));
   // Not positive definite only for contradicting duplicates; the cluster then falls back to its plane.
-  if (!Train(samples, cluster.centroid_m, cluster.mean_normal, hyper_, workspace_, cluster.gp)) cluster.gp = {};
+  if (!Train(samples, cluster.centroid_m, cluster.mean_normal, hyper_, workspace_, cluster.gp)) cluster.gp.Clear();
 }
 
 }  // namespace disflow
