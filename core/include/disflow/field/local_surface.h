@@ -2,15 +2,17 @@
 #pragma once
 
 #include <cmath>
+#include <utility>
 
 #include "disflow/field/distance_field.h"
 #include "disflow/memory/fixed_vector.h"
 
 namespace disflow {
 
-/// The distance field around a place, put together from the local GPs that know it. GPs of one side are blended, so that
-/// the field is continuous across cell borders; sides that meet at a crease are combined as in constructive solid
-/// geometry: the larger distance where the object is convex, the smaller one where it is concave.
+/// The distance field around a place, put together from the local GPs that know it. GPs of one side
+/// are blended, so that the field is continuous across cell borders; sides that meet at a crease
+/// are combined as in constructive solid geometry: the larger distance where the object is convex,
+/// the smaller one where it is concave.
 ///
 /// A view of the model: make a new one after the model has changed. Bounded work, no heap.
 template <class Limits>
@@ -28,23 +30,42 @@ class LocalSurface {
     float nearest_m = 0.0F;  ///< Distance to the nearest sample.
   };
 
-  explicit LocalSurface(const Field& field) noexcept
+  /// @param min_observations Samples seen less often are left out.
+  explicit LocalSurface(const Field& field, int min_observations = 1) noexcept
       : field_(field),
-        blend_squared_m2_(Square(std::fmin(std::fmax(field.config().overlap_m, 1.5F * field.config().merge_radius_m),
-                                           field.config().cell_size_m))) {}
+        min_observations_(min_observations),
+        blend_squared_m2_(Square(
+            std::fmin(std::fmax(field.config().overlap_m, 1.5F * field.config().merge_radius_m),
+                      field.config().cell_size_m))) {}
 
-  /// Collects the clusters that matter within a box for points whose nearest sample is at most reach_m away.
+  /// Collects the clusters that matter within a box for points whose nearest sample is at most
+  /// reach_m away.
   void Gather(const Vec3& low_m, const Vec3& high_m, float reach_m) noexcept {
     near_.clear();
     reach_squared_m2_ = Square(reach_m);
     const Vec3 margin = Vec3::Constant(std::sqrt(reach_squared_m2_ + blend_squared_m2_));
     const auto& store = field_.store();
-    store.tree().ForEachLeafInBox(low_m - margin, high_m + margin, [&](const OctreeCell&, Handle leaf) {
-      for (Handle h = store.tree().head(leaf); h != kNoHandle; h = store[h].next) (void)near_.push_back({h, nullptr, 0.0F});
-    });
+    store.tree().ForEachLeafInBox(
+        low_m - margin, high_m + margin, [&](const OctreeCell&, Handle leaf) {
+          for (Handle h = store.tree().head(leaf); h != kNoHandle; h = store[h].next)
+            (void)near_.push_back({h, nullptr, 0.0F});
+        });
   }
 
-  /// The field at a point of the gathered box. Depends on the point alone, not on the box that was gathered.
+  /// Whether a gathered sample lies at most radius_m away from a box.
+  [[nodiscard]] bool HasSampleNear(const Vec3& low_m, const Vec3& high_m,
+                                   float radius_m) const noexcept {
+    for (const Near& near : near_) {
+      for (const ModelSample& sample : field_.store()[near.handle].samples) {
+        const Vec3 inside = sample.position_m.cwiseMax(low_m).cwiseMin(high_m);
+        if ((sample.position_m - inside).squaredNorm() <= Square(radius_m)) return true;
+      }
+    }
+    return false;
+  }
+
+  /// The field at a point of the gathered box. Depends on the point alone, not on the box that was
+  /// gathered.
   [[nodiscard]] Value Evaluate(const Vec3& x_m) noexcept {
     Value value;
     FindNearestSamples(x_m, value);
@@ -90,7 +111,7 @@ class LocalSurface {
       if (store.tree().DistanceSquaredToCell(x_m, cluster.cell) > near.squared_m2) continue;
       for (const ModelSample& sample : cluster.samples) {
         const float squared = (sample.position_m - x_m).squaredNorm();
-        if (squared >= near.squared_m2) continue;
+        if (squared >= near.squared_m2 || sample.observations < min_observations_) continue;
         near.squared_m2 = squared;
         near.sample = &sample;
       }
@@ -112,7 +133,8 @@ class LocalSurface {
         voices.truncate(kMaxVoices - 1);
       }
       (void)voices.push_back(near);
-      for (int i = voices.size() - 1; i > 0 && voices[i].squared_m2 < voices[i - 1].squared_m2; --i) {
+      for (int i = voices.size() - 1; i > 0 && voices[i].squared_m2 < voices[i - 1].squared_m2;
+           --i) {
         std::swap(voices[i], voices[i - 1]);
       }
     }
@@ -126,10 +148,12 @@ class LocalSurface {
       const float distance_m = field_.EvaluateCluster(cluster, x_m, gradient);
       const float norm = gradient.norm();
       const Vec3 direction = norm > kMinGradientNorm ? Vec3(gradient / norm) : cluster.mean_normal;
-      const float weight = Square(1.0F - (voice.squared_m2 - voices[0].squared_m2) / blend_squared_m2_);
+      const float weight =
+          Square(1.0F - (voice.squared_m2 - voices[0].squared_m2) / blend_squared_m2_);
       Side* side = FindSide(direction, sides);
       if (side == nullptr) {
-        if (!sides.push_back({direction, 0.0F, 0.0F, Vec3::Zero(), Vec3::Zero(), Vec3::Zero()})) continue;
+        if (!sides.push_back({direction, 0.0F, 0.0F, Vec3::Zero(), Vec3::Zero(), Vec3::Zero()}))
+          continue;
         side = &sides.back();
       }
       side->weight += weight;
@@ -155,7 +179,8 @@ class LocalSurface {
   /// Cuts the nearest side's half-space by another one (convex) or adds it (concave).
   static void Join(const Side& first, const Side& other, Value& value) noexcept {
     const Vec3 apart = first.centroid_sum / first.weight - other.centroid_sum / other.weight;
-    const bool convex = apart.dot(first.normal_sum / first.weight - other.normal_sum / other.weight) > 0.0F;
+    const bool convex =
+        apart.dot(first.normal_sum / first.weight - other.normal_sum / other.weight) > 0.0F;
     const float distance_m = other.distance_sum / other.weight;
     if (convex == (distance_m < value.distance_m)) return;
     // A side that comes into reach fades in: no jump.
@@ -168,6 +193,7 @@ class LocalSurface {
   static constexpr float kMinGradientNorm = 0.3F;
 
   const Field& field_;
+  int min_observations_;
   float blend_squared_m2_;
   float reach_squared_m2_ = 0.0F;
   FixedVector<Near, kMaxNear> near_;

@@ -7,21 +7,23 @@
 
 namespace disflow {
 
-/// An edge of the tetrahedra in a cube, between two of its corners. Bit 0, 1, 2 of a corner is its x, y, z; `low` has a
-/// subset of `high`'s bits, so neighbouring cubes name a shared edge alike.
+/// An edge of the tetrahedra in a cube, between two of its corners. Bit 0, 1, 2 of a corner is its
+/// x, y, z; `low` has a subset of `high`'s bits, so neighbouring cubes name a shared edge alike.
 struct CubeEdge {
   std::uint8_t low;
   std::uint8_t high;
 };
 
-/// The triangles that separate the inside corners of a cube from the others: the cube is cut into the six tetrahedra
-/// around its main diagonal, one per order of the axes, which fit those of the neighbouring cubes.
-/// Calls visit(CubeEdge, CubeEdge, CubeEdge) per triangle, counter-clockwise seen from outside.
+/// The triangles that separate the inside corners of a cube from the others: the cube is cut into
+/// the six tetrahedra around its main diagonal, one per order of the axes, which fit those of the
+/// neighbouring cubes. Calls visit(CubeEdge, CubeEdge, CubeEdge) per triangle, counter-clockwise
+/// seen from outside.
 /// @param inside Bit i says whether corner i is inside.
 template <class Visitor>
 void MarchTetrahedra(unsigned inside, Visitor&& visit) noexcept {
   if (inside == 0U || inside == 0xFFU) return;
-  // Corners of a tetrahedron in ascending order, of positive volume where the axes are an even permutation of x, y, z.
+  // Corners of a tetrahedron in ascending order, of positive volume where the axes are an even
+  // permutation of x, y, z.
   constexpr std::array<std::array<std::uint8_t, 4>, 6> kTetrahedra{
       {{0, 1, 3, 7}, {0, 2, 6, 7}, {0, 4, 5, 7}, {0, 1, 5, 7}, {0, 2, 3, 7}, {0, 4, 6, 7}}};
   for (std::size_t t = 0; t < kTetrahedra.size(); ++t) {
@@ -40,7 +42,8 @@ void MarchTetrahedra(unsigned inside, Visitor&& visit) noexcept {
       ++count;
     }
     const auto edge = [&corner](std::size_t a, std::size_t b) {
-      return corner[a] < corner[b] ? CubeEdge{corner[a], corner[b]} : CubeEdge{corner[b], corner[a]};
+      return corner[a] < corner[b] ? CubeEdge{corner[a], corner[b]}
+                                   : CubeEdge{corner[b], corner[a]};
     };
     const auto triangle = [&](CubeEdge a, CubeEdge b, CubeEdge c) {
       if (mirrored) {
