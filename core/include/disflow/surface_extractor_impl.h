@@ -184,8 +184,9 @@ class SurfaceExtractor {
       share = next > first && next < last ? next : 0.5F * (first + last);
     }
     // Where the field jumps instead of passing through zero there is no surface.
-    const bool supported = value.found && value.nearest_m <= support_m_ &&
-                           std::abs(value.distance_m) < kLargestResidual * step_m_;
+    const bool supported =
+        value.found && value.nearest_m <= support_m_ &&
+        std::abs(value.distance_m) < kLargestJump * (step_m_ + field_.config().merge_radius_m);
     if (!supported) return {key, false, {}};
     return {key,
             true,
@@ -215,7 +216,8 @@ class SurfaceExtractor {
   }
 
   static constexpr std::uint32_t kNoKey = 0xFFFFFFFFU;
-  static constexpr float kLargestResidual = 0.1F;  ///< Of a vertex's distance, in steps.
+  /// Local GPs disagree by less than this share of the distances between corners and samples.
+  static constexpr float kLargestJump = 0.1F;
 
   const DistanceField<Limits>& field_;
   Workspace& workspace_;

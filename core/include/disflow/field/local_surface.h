@@ -43,7 +43,7 @@ class LocalSurface {
   void Gather(const Vec3& low_m, const Vec3& high_m, float reach_m) noexcept {
     near_.clear();
     reach_squared_m2_ = Square(reach_m);
-    const Vec3 margin = Vec3::Constant(std::sqrt(reach_squared_m2_ + blend_squared_m2_));
+    const Vec3 margin = Vec3::Constant(std::sqrt(reach_squared_m2_ + JoinReach()));
     const auto& store = field_.store();
     store.tree().ForEachLeafInBox(
         low_m - margin, high_m + margin, [&](const OctreeCell&, Handle leaf) {
@@ -91,7 +91,8 @@ class LocalSurface {
 
   /// Weighted sums over the clusters of one side.
   struct Side {
-    Vec3 leader;  ///< Unit gradient of its nearest cluster.
+    Vec3 direction;    ///< Unit gradient of its nearest cluster, which comes first.
+    float squared_m2;  ///< Squared distance to its nearest sample.
     float weight;
     float distance_sum;
     Vec3 gradient_sum;
@@ -106,7 +107,7 @@ class LocalSurface {
     float best = reach_squared_m2_;
     for (Near& near : near_) {
       near.sample = nullptr;
-      near.squared_m2 = best + blend_squared_m2_;
+      near.squared_m2 = best + JoinReach();
       const ClusterType& cluster = store[near.handle];
       if (store.tree().DistanceSquaredToCell(x_m, cluster.cell) > near.squared_m2) continue;
       for (const ModelSample& sample : cluster.samples) {
@@ -124,10 +125,10 @@ class LocalSurface {
     value.nearest_m = std::sqrt(best);
   }
 
-  /// The clusters whose weight is not zero, nearest first.
+  /// The clusters that have a say, nearest first.
   void SelectVoices(float best_squared, Voices& voices) const noexcept {
     for (const Near& near : near_) {
-      if (near.sample == nullptr || near.squared_m2 >= best_squared + blend_squared_m2_) continue;
+      if (near.sample == nullptr || near.squared_m2 >= best_squared + JoinReach()) continue;
       if (voices.full()) {
         if (near.squared_m2 >= voices.back().squared_m2) continue;
         voices.truncate(kMaxVoices - 1);
@@ -148,14 +149,15 @@ class LocalSurface {
       const float distance_m = field_.EvaluateCluster(cluster, x_m, gradient);
       const float norm = gradient.norm();
       const Vec3 direction = norm > kMinGradientNorm ? Vec3(gradient / norm) : cluster.mean_normal;
-      const float weight =
-          Square(1.0F - (voice.squared_m2 - voices[0].squared_m2) / blend_squared_m2_);
       Side* side = FindSide(direction, sides);
       if (side == nullptr) {
-        if (!sides.push_back({direction, 0.0F, 0.0F, Vec3::Zero(), Vec3::Zero(), Vec3::Zero()}))
+        if (!sides.push_back({direction, voice.squared_m2, 0.0F, 0.0F, Vec3::Zero(), Vec3::Zero(),
+                              Vec3::Zero()}))
           continue;
         side = &sides.back();
       }
+      const float weight =
+          Square(std::fmax(1.0F - (voice.squared_m2 - side->squared_m2) / blend_squared_m2_, 0.0F));
       side->weight += weight;
       side->distance_sum += weight * distance_m;
       side->gradient_sum += weight * direction;
@@ -171,24 +173,28 @@ class LocalSurface {
   template <class Sides>
   [[nodiscard]] Side* FindSide(const Vec3& direction, Sides& sides) const noexcept {
     for (Side& side : sides) {
-      if (side.leader.dot(direction) > field_.config().crease_cos) return &side;
+      if (side.direction.dot(direction) > field_.config().crease_cos) return &side;
     }
     return nullptr;
   }
 
   /// Cuts the nearest side's half-space by another one (convex) or adds it (concave).
-  static void Join(const Side& first, const Side& other, Value& value) noexcept {
+  void Join(const Side& first, const Side& other, Value& value) const noexcept {
     const Vec3 apart = first.centroid_sum / first.weight - other.centroid_sum / other.weight;
     const bool convex =
         apart.dot(first.normal_sum / first.weight - other.normal_sum / other.weight) > 0.0F;
     const float distance_m = other.distance_sum / other.weight;
     if (convex == (distance_m < value.distance_m)) return;
     // A side that comes into reach fades in: no jump.
-    constexpr float kFullWeight = 0.1F;
-    const float share = std::fmin(other.weight / kFullWeight, 1.0F);
+    const float excess_m2 = other.squared_m2 - first.squared_m2;
+    const float share = std::fmin((JoinReach() - excess_m2) / blend_squared_m2_, 1.0F);
     value.distance_m += share * (distance_m - value.distance_m);
     value.gradient += share * (other.gradient_sum / other.weight - value.gradient);
   }
+
+  /// Sides whose nearest sample is this much farther away (in squares) than the nearest of all do
+  /// not count. Twice the blending's: a crease's samples keep off the crease.
+  [[nodiscard]] float JoinReach() const noexcept { return 2.0F * blend_squared_m2_; }
 
   static constexpr float kMinGradientNorm = 0.3F;
 
