@@ -7,6 +7,7 @@
 #include "model_file.h"
 #include "ply_file.h"
 #include "surface.h"
+#include "visibility.h"
 
 namespace disflow::apps {
 namespace {
@@ -47,7 +48,8 @@ Report Evaluate(const EvaluationInput& input) {
     report.mesh = input.mesh.string();
     const Surface mesh = Move(report.run.T_ot.Inverse(), LoadPly(input.mesh));
     const std::vector<SurfacePoint> samples = SampleSurface(model, kMeshSamples);
-    report.surface = CompareMeshes(mesh, model, samples, {});
+    report.surface =
+        CompareMeshes(mesh, model, samples, FindSeen(input.sequence_dir, truth, samples));
   }
   return report;
 }

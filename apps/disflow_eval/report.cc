@@ -122,6 +122,8 @@ std::vector<ReportRow> Rows(const Report& report) {
     if (std::isfinite(report.surface->seen_share)) {
       AddSurface("Surface, seen part", report.surface->seen, rows);
       rows.Add("seen of the model", "%.1f %%", kPercent * report.surface->seen_share);
+    } else {
+      rows.Add("seen part", "%s", "not known: no depth images beside the truth");
     }
   }
   AddTiming(report.stages, rows);

@@ -4,10 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "depth_images.h"
 #include "disflow/depth/depth_reader.h"
 
 namespace disflow::apps {
 namespace {
+
+constexpr std::size_t kFrameStride = 5;
 
 bool Shows(const DepthFrame& frame, const DepthReader& depth, const Vec3d& x_c) {
   if (!(x_c.z() > 0.0)) return false;
@@ -33,6 +36,21 @@ void MarkSeen(const DepthFrame& frame, const TruePose& T_ct,
     const double towards_camera = (T_ct.rotation() * points[i].normal).dot(x_c);
     if (towards_camera <= 0.0 && Shows(frame, depth, x_c)) seen[i] = true;
   }
+}
+
+std::vector<bool> FindSeen(const std::filesystem::path& sequence_dir, const GroundTruth& truth,
+                           const std::vector<SurfacePoint>& points) {
+  if (!std::filesystem::exists(sequence_dir / "cam_K.json")) return {};
+  DepthImages images(sequence_dir);
+  std::vector<bool> seen(points.size(), false);
+  bool any_image = false;
+  for (std::size_t k = 0; k < truth.T_ct.size(); k += kFrameStride) {
+    if (!images.Has(truth.file_indices[k])) continue;
+    any_image = true;
+    MarkSeen(images.Load(truth.file_indices[k]), truth.T_ct[k], points, seen);
+  }
+  if (!any_image) return {};
+  return seen;
 }
 
 }  // namespace disflow::apps

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <filesystem>
 #include <vector>
 
 #include "disflow/depth/depth_frame.h"
 #include "frames.h"
+#include "ground_truth.h"
 #include "surface.h"
 
 namespace disflow::apps {
@@ -19,5 +21,13 @@ inline constexpr double kSeenTolerance_m = 0.005;
 /// @param seen One entry per point; points once marked stay marked.
 void MarkSeen(const DepthFrame& frame, const TruePose& T_ct,
               const std::vector<SurfacePoint>& points, std::vector<bool>& seen);
+
+/// Which points the depth images of a sequence show; every few frames are looked at, since
+/// neighbours show nearly the same.
+/// @return One entry per point, or nothing if the sequence has no cam_K.json or no depth images.
+/// @throws InputError if one of them is malformed.
+[[nodiscard]] std::vector<bool> FindSeen(const std::filesystem::path& sequence_dir,
+                                         const GroundTruth& truth,
+                                         const std::vector<SurfacePoint>& points);
 
 }  // namespace disflow::apps
