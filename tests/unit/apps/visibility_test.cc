@@ -3,7 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
+
+#include "sphere_mesh.h"
 
 namespace disflow::apps {
 namespace {
@@ -71,6 +75,37 @@ TEST_F(VisibilityTest, OnceSeen_StaysSeen) {
   std::vector<bool> seen(1, true);
   MarkSeen(frame_, TruePose(), {SurfacePoint()}, seen);
   EXPECT_TRUE(seen[0]);
+}
+
+TEST(VisibilityOfASphereTest, SeenPart_IsTheCapThatGeometrySays) {
+  constexpr double kRadius_m = 0.05;
+  constexpr double kDistance_m = 0.6;
+  constexpr int kSide_px = 200;
+  DepthFrame frame;
+  frame.camera = {1000.0F, 1000.0F, 99.5F, 99.5F};
+  std::vector<float> pixels;
+  for (int v = 0; v < kSide_px; ++v) {
+    for (int u = 0; u < kSide_px; ++u) {
+      // Nearer solution of |z ray - centre| = radius.
+      const Vec3d ray =
+          frame.camera.Ray(static_cast<float>(u), static_cast<float>(v)).cast<double>();
+      const double a = ray.squaredNorm();
+      const double c = kDistance_m * kDistance_m - kRadius_m * kRadius_m;
+      const double discriminant = kDistance_m * kDistance_m - a * c;
+      const bool hit = discriminant >= 0.0;
+      pixels.push_back(hit ? static_cast<float>((kDistance_m - std::sqrt(discriminant)) / a)
+                           : 0.0F);
+    }
+  }
+  frame.depth = {pixels.data(), kSide_px, kSide_px, 4 * kSide_px, DepthFormat::kFloat32};
+  const auto points = SampleSurface(MakeSphere(kRadius_m, Vec3d::Zero()), 20000);
+  std::vector<bool> seen(points.size(), false);
+  MarkSeen(frame, TruePose(Mat3d::Identity(), Vec3d(0, 0, kDistance_m)), points, seen);
+  const double share = static_cast<double>(std::count(seen.begin(), seen.end(), true)) / 20000.0;
+  const double cap = 0.5 * (1.0 - kRadius_m / kDistance_m);
+  EXPECT_LE(share, cap + 0.001);
+  // At the rim the depth changes by more than the tolerance within a pixel.
+  EXPECT_GE(share, cap - 0.02);
 }
 
 }  // namespace
