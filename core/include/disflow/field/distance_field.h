@@ -79,6 +79,10 @@ class DistanceField {
   /// Takes an observation into the model: averaged into the sample near it, else as a new sample.
   /// @param observation In the object frame.
   Fusion Insert(const SurfaceSample& observation, std::uint32_t frame, Counters& counters) noexcept {
+    if (!IsUsable(observation)) {
+      ++counters.observations_rejected;
+      return Fusion::kRejected;
+    }
     const Match match = FindMatch(observation.position_m, observation.normal, config_.merge_radius_m * 2.0F,
                                   config_.crease_cos);
     if (match.found) {
@@ -120,6 +124,15 @@ class DistanceField {
   }
 
  private:
+  /// Finite, with a unit normal and positive variances. Written so that NaN is not.
+  [[nodiscard]] static bool IsUsable(const SurfaceSample& observation) noexcept {
+    constexpr float kLargest = 1e6F;
+    return observation.position_m.cwiseAbs().maxCoeff() < kLargest && observation.position_m.allFinite() &&
+           std::abs(observation.normal.squaredNorm() - 1.0F) < 0.1F && observation.fused_variance_m2 > 0.0F &&
+           observation.fused_variance_m2 < kLargest && observation.normal_variance >= 0.0F &&
+           observation.normal_variance < kLargest;
+  }
+
   void Evaluate(const ClusterType& cluster, const Vec3& x_m, Match& match) const noexcept {
     match.found = true;
     if (cluster.gp.trained()) {
