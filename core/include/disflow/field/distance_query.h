@@ -45,7 +45,7 @@ class DistanceQuerier {
     Expected<DistanceQuery> result;
     if (field_.empty()) {
       result.status = Status::kNotInitialised;
-    } else if (!(x_m.cwiseAbs().maxCoeff() < kFarthest_m)) {
+    } else if (!x_m.allFinite() || x_m.cwiseAbs().maxCoeff() > kFarthest_m) {
       result.status = Status::kOutOfBounds;
     } else {
       result.value = QueryFinite(x_m);

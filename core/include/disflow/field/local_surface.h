@@ -164,6 +164,8 @@ class LocalSurface {
       side->centroid_sum += weight * cluster.centroid_m;
       side->normal_sum += weight * cluster.mean_normal;
     }
+    value.found = !sides.empty();
+    if (!value.found) return;
     value.distance_m = sides[0].distance_sum / sides[0].weight;
     value.gradient = sides[0].gradient_sum / sides[0].weight;
     for (int i = 1; i < sides.size(); ++i) Join(sides[0], sides[i], value);
