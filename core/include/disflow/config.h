@@ -22,6 +22,7 @@ struct SegmenterConfig {
   int roi_height_px = 0;
   int seed_u_px = -1;
   int seed_v_px = -1;
+  int grow_region = 1;
 };
 
 /// How surface samples are made of pixels.
@@ -46,14 +47,14 @@ struct FieldConfig {
   float cell_size_m = 0.02F;
   float length_scale_m = 0.06F;
   float prior_gradient_std = 0.25F;
-  float value_noise_m = 3e-4F;
-  float normal_noise = 0.1F;
+  float value_noise_m = 1e-4F;
+  float normal_noise = 0.05F;
   float merge_radius_m = 0.005F;
   float overlap_m = 0.006F;
   float crease_cos = 0.7F;
   float reject_floor_m = 0.004F;
-  int freeze_after = 5;
-  int mature_after = 3;
+  int freeze_after = 15;
+  int mature_after = 1;
   int retrain_budget = 4;
   int fuse_budget = 300;
 };
@@ -70,7 +71,7 @@ struct RegistrationConfig {
   float damping = 1e-4F;
   float temporal_std_m = 0.02F;
   float temporal_std_rad = 0.1F;
-  float edge_std_px = 2.0F;
+  float edge_std_px = 1.0F;
   float hypothesis_score = 0.75F;
   int hypothesis_iterations = 3;
   int score_points = 120;

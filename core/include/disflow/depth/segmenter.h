@@ -31,7 +31,11 @@ class Segmenter {
       CopyMask(frame.mask, object);
       return object.count() > 0 ? Status::kOk : Status::kEmptyMask;
     }
-    GrowRegion(frame, config, prior, object, counters);
+    if (config.grow_region != 0) {
+      GrowRegion(frame, config, prior, object, counters);
+    } else {
+      TakeAll(frame, config, object);
+    }
     return object.count() > 0 ? Status::kOk : Status::kNoValidDepth;
   }
 
@@ -46,6 +50,13 @@ class Segmenter {
         object.SetRun(v, begin, u);
       }
     }
+    object.Finish();
+  }
+
+  /// Everything is the object; the range gate drops what is too far pixel by pixel.
+  static void TakeAll(const DepthFrame& frame, const SegmenterConfig& config, Mask& object) noexcept {
+    const PixelBox box = SearchBox(frame, config, ModelPrior{});
+    for (int v = box.v_min; v < box.v_max; ++v) object.SetRun(v, box.u_min, box.u_max);
     object.Finish();
   }
 
