@@ -7,6 +7,7 @@
 #include <span>
 
 #include "disflow/field/cholesky.h"
+#include "disflow/field/fast_math.h"
 #include "disflow/field/matern32.h"
 #include "disflow/types.h"
 
@@ -43,7 +44,8 @@ class LocalGp {
   /// Posterior variance of d at center_m() [m^2].
   [[nodiscard]] float SurfaceVariance() const noexcept { return surface_variance_m2_; }
 
-  /// Posterior mean of (d, grad d) at x: k_*^T (K + sigma^2 I)^-1 y plus the prior plane.
+  /// Posterior mean of (d [m], grad d) at x: k_*^T (K + sigma^2 I)^-1 y plus the prior plane. Only
+  /// for a trained GP.
   void Mean(const Vec3& x_m, float& distance_m, Vec3& gradient) const noexcept {
     const Vec3 offset_m = x_m - center_m_;
     const Vec3 p = scale_ * offset_m;
@@ -51,12 +53,18 @@ class LocalGp {
     const Row ey = p.y() - position_[1];
     const Row ez = p.z() - position_[2];
     constexpr float kTiny = 1e-12F;  // keeps 1/r finite at a sample, where its term vanishes
-    const Row r = (ex * ex + ey * ey + ez * ez + kTiny).sqrt();
-    const Row envelope = amplitude_squared_ * (-r).exp();
+    const Row r_squared = ex * ex + ey * ey + ez * ez + kTiny;
+    Row inverse_r;
+    Row envelope;
+    for (int i = 0; i < kMaxSamples; ++i) {
+      inverse_r.data()[i] = FastInverseSqrt(r_squared.data()[i]);
+      const float r = r_squared.data()[i] * inverse_r.data()[i];
+      envelope.data()[i] = amplitude_squared_ * FastExpNonPositive(-r);
+    }
     const Row along = ex * weight_[1] + ey * weight_[2] + ez * weight_[3];
-    distance_m =
-        mean_normal_.dot(offset_m) + (envelope * ((1.0F + r) * weight_[0] + along)).sum() / scale_;
-    const Row radial = envelope * (weight_[0] + along / r);
+    const Row value = envelope * ((1.0F + r_squared * inverse_r) * weight_[0] + along);
+    distance_m = mean_normal_.dot(offset_m) + value.sum() / scale_;
+    const Row radial = envelope * (weight_[0] + along * inverse_r);
     gradient = mean_normal_ + Vec3((envelope * weight_[1] - radial * ex).sum(),
                                    (envelope * weight_[2] - radial * ey).sum(),
                                    (envelope * weight_[3] - radial * ez).sum());
@@ -118,8 +126,11 @@ struct GpWorkspace {
     CholeskySolveLower(factor.data(), 4 * count, kRows, y.data());
     CholeskySolveUpper(factor.data(), 4 * count, kRows, y.data());
     for (int i = 0; i < count; ++i) {
-      for (int k = 0; k < 4; ++k)
-        gp.weight_[static_cast<std::size_t>(k)][i] = y[static_cast<std::size_t>(4 * i + k)];
+      for (int k = 0; k < 4; ++k) {
+        const float weight = y[static_cast<std::size_t>(4 * i + k)];
+        if (!std::isfinite(weight)) return false;  // normals do not enter K: a NaN shows only here
+        gp.weight_[static_cast<std::size_t>(k)][i] = weight;
+      }
     }
     gp.size_ = count;
     gp.surface_variance_m2_ = Covariance(gp, center_m)(0, 0);
@@ -205,8 +216,9 @@ struct GpWorkspace {
   }
 };
 
-/// Trains a local GP. @return false if the constraints contradict each other beyond rounding; the
-/// GP is then untrained.
+/// Trains a local GP.
+/// @return false if there are no samples or more than kMaxSamples, if anything is not finite, or if
+/// the covariance is not positive definite; the GP is then untrained.
 template <int kMaxSamples>
 [[nodiscard]] bool Train(std::span<const GpTrainingSample> samples, const Vec3& center_m,
                          const Vec3& mean_normal, const GpHyperparameters& hyper,
