@@ -203,6 +203,27 @@ TEST(SurfaceExtractor, RarelySeenSamples_AreLeftOutOnRequest) {
   ExpectClosed(without_stray, "sphere without the stray sample");
 }
 
+TEST(SurfaceExtractor, StraySampleOnASurface_IsOutvotedByItsNeighbours) {
+  const Shape sphere = OddSphere();
+  const auto field = MakeModel(sphere);
+  Counters counters;
+  std::mt19937 random(1);
+  const Vec3 direction = Vec3(0.3F, 0.8F, -0.5F).normalized();
+  const SurfacePoint stray{OddPlace().translation() + 0.0405F * direction,
+                           direction.unitOrthogonal()};
+  for (std::uint32_t frame = 9; frame < 14; ++frame) {
+    (void)field->Insert(Observe(stray, {}, random), frame, counters);
+  }
+  EXPECT_EQ(counters.observations_rejected, 0U);
+  (void)field->Retrain(1000);
+  MeshCollector mesh;
+  Extract(*field, {}, mesh);
+  ExpectClosed(mesh, "sphere with a stray sample");
+  for (const SurfaceVertex& vertex : mesh.vertices) {
+    EXPECT_LT(std::abs(sphere.distance_m(vertex.position_m)), 6e-4F);
+  }
+}
+
 /// As Edge, but too small for the whole object.
 struct Tiny : profiles::Edge {
   static constexpr int kMaxNodes = 160;

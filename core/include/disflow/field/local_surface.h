@@ -47,8 +47,9 @@ class LocalSurface {
     const auto& store = field_.store();
     store.tree().ForEachLeafInBox(
         low_m - margin, high_m + margin, [&](const OctreeCell&, Handle leaf) {
-          for (Handle h = store.tree().head(leaf); h != kNoHandle; h = store[h].next)
-            (void)near_.push_back({h, nullptr, 0.0F});
+          for (Handle h = store.tree().head(leaf); h != kNoHandle; h = store[h].next) {
+            if (!IsStray(store[h])) (void)near_.push_back({h, nullptr, 0.0F});
+          }
         });
   }
 
@@ -101,6 +102,26 @@ class LocalSurface {
   };
 
   [[nodiscard]] static float Square(float value) noexcept { return value * value; }
+
+  /// A few samples whose normal the many around them contradict: flying pixels, mixed pixels at
+  /// edges. Alone somewhere they count, for want of better.
+  [[nodiscard]] bool IsStray(const ClusterType& cluster) const noexcept {
+    constexpr int kMost = 3;
+    constexpr int kOutvotedBy = 5;
+    if (cluster.samples.size() > kMost) return false;
+    int agreeing = 0;
+    int others = 0;
+    const float radius_m = 2.0F * std::sqrt(blend_squared_m2_);
+    field_.store().ForEachNear(
+        cluster.centroid_m, radius_m, [&](Handle, const ClusterType& neighbour) {
+          for (const ModelSample& sample : neighbour.samples) {
+            if ((sample.position_m - cluster.centroid_m).squaredNorm() > Square(radius_m)) continue;
+            const bool agrees = sample.normal.dot(cluster.mean_normal) > field_.config().crease_cos;
+            ++(agrees ? agreeing : others);
+          }
+        });
+    return agreeing * kOutvotedBy < others;
+  }
 
   void FindNearestSamples(const Vec3& x_m, Value& value) noexcept {
     const auto& store = field_.store();
