@@ -1,0 +1,12 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Flags of this project's own targets. Processor flags (-march and the like) belong into toolchain files and presets.
+
+add_library(disflow_warnings INTERFACE)
+target_compile_options(disflow_warnings INTERFACE
+  -Wall -Wextra -Wconversion -Wshadow -Wdouble-promotion -Werror)
+
+# What core, hal and everything that runs on bare metal are compiled with. -ffp-contract=off: the same bits wherever the
+# code runs; -fno-math-errno: sqrt becomes an instruction.
+add_library(disflow_firmware_flags INTERFACE)
+target_compile_options(disflow_firmware_flags INTERFACE
+  -fno-exceptions -fno-rtti -fno-threadsafe-statics -ffp-contract=off -fno-math-errno)

@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# find_package(disflow 0.1 CONFIG) gives disflow::core, disflow::hal and, on Linux, disflow::platform_linux.
+include(CMakePackageConfigHelpers)
+
+set(disflow_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/disflow)
+set(disflow_installed_targets disflow_core disflow_hal)
+if(TARGET disflow_platform_linux)
+  list(APPEND disflow_installed_targets disflow_platform_linux)
+endif()
+foreach(target IN LISTS disflow_installed_targets)
+  string(REPLACE disflow_ "" exported_name ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${exported_name})
+endforeach()
+
+install(TARGETS ${disflow_installed_targets} EXPORT disflow_targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(DIRECTORY core/include/ hal/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+if(TARGET disflow_platform_linux)
+  install(DIRECTORY platform/linux/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+endif()
+foreach(program disflow_track disflow_sim disflow_eval)
+  if(TARGET ${program})
+    install(TARGETS ${program} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  endif()
+endforeach()
+install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+install(EXPORT disflow_targets NAMESPACE disflow:: DESTINATION ${disflow_package_dir})
+configure_package_config_file(cmake/disflow-config.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/disflow-config.cmake
+  INSTALL_DESTINATION ${disflow_package_dir})
+write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/disflow-config-version.cmake
+  COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/disflow-config.cmake ${CMAKE_CURRENT_BINARY_DIR}/disflow-config-version.cmake
+  DESTINATION ${disflow_package_dir})
