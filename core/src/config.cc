@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "disflow/config.h"
 
+#include <type_traits>
+
 #include "disflow/config_fields.h"
 
 namespace disflow {
@@ -8,10 +10,13 @@ namespace disflow {
 ConfigIssue Validate(const Config& config) noexcept {
   ConfigIssue issue;
   VisitFields(config, [&issue](const auto& field) {
-    const auto value = static_cast<double>(field.value);
-    // Written so that NaN fails too.
-    if (issue.field == nullptr && !(value >= field.min && value <= field.max)) {
-      issue = {field.name, value, field.min, field.max};
+    // Limits in the setting's own precision, so that both ends are included. Written so that NaN
+    // fails too.
+    using Value = std::remove_cvref_t<decltype(field.value)>;
+    const bool allowed = field.value >= static_cast<Value>(field.min) &&
+                         field.value <= static_cast<Value>(field.max);
+    if (issue.field == nullptr && !allowed) {
+      issue = {field.name, static_cast<double>(field.value), field.min, field.max};
     }
   });
   if (issue.field == nullptr && config.segmenter.max_range_m <= config.segmenter.min_range_m) {
