@@ -15,10 +15,14 @@ namespace disflow {
 /// Factorises A = L L^T in place; the lower triangle holds A before and L after, the diagonal of L
 /// is stored inverted.
 /// @param a Column-major, element (row, column) at a[column * stride + row].
-/// @return false if A is not positive definite (NaN included); `a` is then spoilt.
+/// @return false if A is not positive definite to working precision (NaN included); `a` is then
+/// spoilt.
 [[nodiscard]] inline bool CholeskyFactorise(float* a, int size, int stride) noexcept {
+  // A pivot that has lost this much of its diagonal element is nothing but rounding.
+  constexpr float kSmallestPivot = 1e-6F;
   for (int j = 0; j < size; ++j) {
     float* column = a + j * stride;
+    const float smallest = kSmallestPivot * column[j];
     // Left-looking: subtract what the columns before contribute, four at a time to spare memory
     // traffic.
     int k = 0;
@@ -37,7 +41,7 @@ namespace disflow {
       for (int i = j; i < size; ++i) column[i] -= factor * other[i];
     }
     const float pivot = column[j];
-    if (!(pivot > 0.0F) || !std::isfinite(pivot)) return false;
+    if (!(pivot > 0.0F && pivot > smallest) || !std::isfinite(pivot)) return false;
     const float inverse = 1.0F / std::sqrt(pivot);
     for (int i = j + 1; i < size; ++i) column[i] *= inverse;
     column[j] = inverse;
