@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "disflow/geometry/pinhole_camera.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace disflow {
+namespace {
+
+constexpr PinholeCamera kCamera{614.7F, 615.2F, 320.5F, 181.25F};
+
+TEST(PinholeCamera, BackProjectedPixel_ProjectsToItself) {
+  for (float v_px = 0.0F; v_px < 360.0F; v_px += 37.0F) {
+    for (float u_px = 0.0F; u_px < 640.0F; u_px += 53.0F) {
+      for (const float depth_m : {0.1F, 0.7F, 4.0F}) {
+        const Vec3 x_c = kCamera.BackProject(u_px, v_px, depth_m);
+        EXPECT_FLOAT_EQ(x_c.z(), depth_m);
+        EXPECT_LT((kCamera.Project(x_c) - Vec2(u_px, v_px)).norm(), 1e-3F);
+      }
+    }
+  }
+}
+
+TEST(PinholeCamera, PrincipalPoint_LooksStraightAhead) {
+  EXPECT_EQ(kCamera.Ray(kCamera.cx_px, kCamera.cy_px), Vec3(0.0F, 0.0F, 1.0F));
+}
+
+TEST(PinholeCamera, Axes_AreRightDownForward) {
+  const Vec2 right = kCamera.Project({0.1F, 0.0F, 1.0F});
+  const Vec2 down = kCamera.Project({0.0F, 0.1F, 1.0F});
+  EXPECT_FLOAT_EQ(right.x(), kCamera.cx_px + 0.1F * kCamera.fx_px);
+  EXPECT_FLOAT_EQ(right.y(), kCamera.cy_px);
+  EXPECT_FLOAT_EQ(down.x(), kCamera.cx_px);
+  EXPECT_FLOAT_EQ(down.y(), kCamera.cy_px + 0.1F * kCamera.fy_px);
+}
+
+TEST(PinholeCamera, FartherPoint_IsNearerToThePrincipalPoint) {
+  const Vec2 center(kCamera.cx_px, kCamera.cy_px);
+  const Vec2 near = kCamera.Project({0.1F, 0.1F, 0.5F}) - center;
+  const Vec2 far = kCamera.Project({0.1F, 0.1F, 1.0F}) - center;
+  EXPECT_LT((near - 2.0F * far).norm(), 1e-3F);
+}
+
+TEST(PinholeCamera, EveryBadIntrinsic_IsInvalid) {
+  EXPECT_TRUE(kCamera.IsValid());
+  EXPECT_FALSE(PinholeCamera{}.IsValid());
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const float infinity = std::numeric_limits<float>::infinity();
+  for (float PinholeCamera::*field : {&PinholeCamera::fx_px, &PinholeCamera::fy_px}) {
+    for (const float bad : {0.0F, -1.0F, nan, infinity}) {
+      PinholeCamera camera = kCamera;
+      camera.*field = bad;
+      EXPECT_FALSE(camera.IsValid()) << bad;
+    }
+  }
+  for (float PinholeCamera::*field : {&PinholeCamera::cx_px, &PinholeCamera::cy_px}) {
+    for (const float bad : {nan, infinity, -infinity}) {
+      PinholeCamera camera = kCamera;
+      camera.*field = bad;
+      EXPECT_FALSE(camera.IsValid()) << bad;
+    }
+  }
+}
+
+TEST(PinholeCamera, PrincipalPointOutsideOfTheImage_IsAllowed) {
+  PinholeCamera cropped = kCamera;
+  cropped.cx_px = -200.0F;
+  EXPECT_TRUE(cropped.IsValid());
+}
+
+}  // namespace
+}  // namespace disflow
