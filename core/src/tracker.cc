@@ -3,6 +3,11 @@
 
 namespace disflow {
 
+// Budgets: docs/memory.md says what they are spent on.
+static_assert(sizeof(Tracker<profiles::Micro>) <= 768U * 1024U);
+static_assert(sizeof(Tracker<profiles::Edge>) <= 4U * 1024U * 1024U);
+static_assert(sizeof(Tracker<profiles::Dense>) <= 24U * 1024U * 1024U);
+
 template class Tracker<profiles::Micro>;
 template class Tracker<profiles::Edge>;
 template class Tracker<profiles::Dense>;

@@ -25,13 +25,15 @@ void TrackingMonitor::Start(const MonitorConfig& config, StampNs stamp_ns) noexc
 
 bool TrackingMonitor::Accepts(const Evidence& evidence) const noexcept {
   return evidence.registered && evidence.score >= config_.lost_score &&
-         static_cast<float>(evidence.inliers) >= kFewestInlierShare * static_cast<float>(evidence.points);
+         static_cast<float>(evidence.inliers) >=
+             kFewestInlierShare * static_cast<float>(evidence.points);
 }
 
 std::uint8_t TrackingMonitor::Grade(const Evidence& evidence) const noexcept {
   const float position = 1.0F / (1.0F + evidence.position_std_m / kPositionStdHalf_m);
   const float rotation = 1.0F / (1.0F + evidence.rotation_std_rad / kRotationStdHalf_rad);
-  const float grade = 100.0F * std::clamp(evidence.score, 0.0F, 1.0F) * std::sqrt(position * rotation);
+  const float grade =
+      100.0F * std::clamp(evidence.score, 0.0F, 1.0F) * std::sqrt(position * rotation);
   return static_cast<std::uint8_t>(std::clamp(std::lround(grade), 1L, 100L));
 }
 
@@ -55,7 +57,8 @@ void TrackingMonitor::Update(const Evidence& evidence, StampNs stamp_ns) noexcep
       state_ = TrackingState::kRecovered;
     } else if (state_ == TrackingState::kInitialising || state_ == TrackingState::kRecovered) {
       const int needed = state_ == TrackingState::kInitialising ? kInitialFrames : kRecoveryFrames;
-      if (frames_in_state_ + 1 >= needed) state_ = good ? TrackingState::kTracking : TrackingState::kDegraded;
+      if (frames_in_state_ + 1 >= needed)
+        state_ = good ? TrackingState::kTracking : TrackingState::kDegraded;
     } else {
       state_ = good ? TrackingState::kTracking : TrackingState::kDegraded;
     }
@@ -65,7 +68,8 @@ void TrackingMonitor::Update(const Evidence& evidence, StampNs stamp_ns) noexcep
 
 bool TrackingMonitor::ShouldRestart(StampNs stamp_ns) const noexcept {
   const double lost_s = static_cast<double>(stamp_ns - last_registered_ns_) * 1e-9;
-  return state_ == TrackingState::kLost && lost_s > static_cast<double>(config_.reinitialise_after_s);
+  return state_ == TrackingState::kLost &&
+         lost_s > static_cast<double>(config_.reinitialise_after_s);
 }
 
 }  // namespace disflow

@@ -28,7 +28,8 @@ float Seconds(StampNs from_ns, StampNs to_ns) noexcept {
 }
 
 PoseCameraFromObject Moved(const PoseCameraFromObject& T_co, const Vec6& displacement) noexcept {
-  // Position and rotation are moved apart: the twist is that of the object's origin, not of the camera's.
+  // Position and rotation are moved apart: the twist is that of the object's origin, not of the
+  // camera's.
   const Vec3 rotation_vector = displacement.tail<3>();
   return PoseCameraFromObject(Mat3(ExpSo3(rotation_vector) * T_co.rotation()),
                               Vec3(T_co.translation() + displacement.head<3>()))
@@ -45,14 +46,15 @@ void TwistFilter::RestartMotion() noexcept {
       if (i != 0 || j != 0) covariance_[i][j].setZero();
     }
   }
-  covariance_[1][1] =
-      Diagonal(kInitialSpeedStd_mps * kInitialSpeedStd_mps, kInitialRateStd_rps * kInitialRateStd_rps);
-  covariance_[2][2] = Diagonal(kInitialAccelerationStd_mps2 * kInitialAccelerationStd_mps2,
-                               kInitialAngularAccelerationStd_rps2 * kInitialAngularAccelerationStd_rps2);
+  covariance_[1][1] = Diagonal(kInitialSpeedStd_mps * kInitialSpeedStd_mps,
+                               kInitialRateStd_rps * kInitialRateStd_rps);
+  covariance_[2][2] =
+      Diagonal(kInitialAccelerationStd_mps2 * kInitialAccelerationStd_mps2,
+               kInitialAngularAccelerationStd_rps2 * kInitialAngularAccelerationStd_rps2);
 }
 
-void TwistFilter::Start(const TwistFilterConfig& config, StampNs stamp_ns, const PoseCameraFromObject& T_co,
-                        const Mat6& pose_covariance) noexcept {
+void TwistFilter::Start(const TwistFilterConfig& config, StampNs stamp_ns,
+                        const PoseCameraFromObject& T_co, const Mat6& pose_covariance) noexcept {
   config_ = config;
   stamp_ns_ = stamp_ns;
   T_co_ = T_co;
@@ -71,7 +73,8 @@ void TwistFilter::Predict(StampNs stamp_ns) noexcept {
   twist_ += dt * acceleration_;
   stamp_ns_ = stamp_ns;
 
-  // P <- F P F^T with F = [I, dt, dt^2/2; 0, I, dt; 0, 0, I] (times the 6x6 identity each): rows, then columns.
+  // P <- F P F^T with F = [I, dt, dt^2/2; 0, I, dt; 0, 0, I] (times the 6x6 identity each): rows,
+  // then columns.
   Covariance& p = covariance_;
   for (std::size_t j = 0; j < kBlocks; ++j) {
     p[0][j] += dt * p[1][j] + half_dt2 * p[2][j];

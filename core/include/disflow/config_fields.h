@@ -46,7 +46,8 @@ constexpr void VisitFields(ConfigType& config, Visitor&& visitor) {
   field("segmenter.seed_v_px", seg.seed_v_px, -1, 8191, "px",
         "a pixel on the object in the first frame; -1 = nearest");
   field("segmenter.grow_region", seg.grow_region, 0, 1, "0/1",
-        "without a mask: 1 = one connected surface is the object, 0 = all within range and region of interest (a room)");
+        "without a mask: 1 = one connected surface is the object, 0 = all within range and region "
+        "of interest (a room)");
   auto& sam = config.sampler;
   field("sampler.target_blocks", sam.target_blocks, 50, 20000, "1",
         "pixel blocks that shall cover the object");
@@ -127,7 +128,8 @@ constexpr void VisitFields(ConfigType& config, Visitor&& visitor) {
   field("registration.score_points", reg.score_points, 20, 500, "1",
         "samples used to score a pose");
   field("registration.covariance_inflation", reg.covariance_inflation, 1.0, 1e4, "1",
-        "factor on the pose covariance for what the noise model leaves out: correlated noise and model error");
+        "factor on the pose covariance for what the noise model leaves out: correlated noise and "
+        "model error");
   auto& twist = config.twist;
   field("twist.linear_jerk_psd", twist.linear_jerk_psd, 1e-6, 1e9, "m^2/s^5",
         "power density of the jerk, translation");

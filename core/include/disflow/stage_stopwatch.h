@@ -8,7 +8,8 @@ namespace disflow {
 /// Books the time since the last mark to a stage, if the caller lent a clock.
 class StageStopwatch {
  public:
-  StageStopwatch(StageClock clock, Estimate& estimate) noexcept : clock_(clock), estimate_(estimate) {
+  StageStopwatch(StageClock clock, Estimate& estimate) noexcept
+      : clock_(clock), estimate_(estimate) {
     estimate_.stage_ns.fill(0);
     if (clock_.now_ns != nullptr) last_ns_ = clock_.now_ns(clock_.context);
   }

@@ -19,9 +19,11 @@
 
 namespace disflow {
 
-/// Tracks and reconstructs one rigid object (the paper's section V). Owns all of its memory by value and never
-/// allocates: `static Tracker<profiles::Edge> tracker;` lives in .bss. Not thread-safe; one instance per object.
-/// @tparam Limits A profile of limits.h. For a profile of your own include tracker_impl.h in one source file.
+/// Tracks and reconstructs one rigid object (the paper's section V). Owns all of its memory by
+/// value and never allocates: `static Tracker<profiles::Edge> tracker;` lives in .bss. Not
+/// thread-safe; one instance per object.
+/// @tparam Limits A profile of limits.h. For a profile of your own include tracker_impl.h in one
+/// source file.
 template <class Limits>
 class Tracker {
  public:
@@ -33,12 +35,13 @@ class Tracker {
   Tracker& operator=(const Tracker&) = delete;
 
   /// The whole pipeline on one frame: segment, sample, predict, register, filter, fuse, retrain.
-  /// @param estimate Always written completely. Its pose and twist are predictions if the status is not ok.
+  /// @param estimate Always written completely. Its pose and twist are predictions if the status is
+  /// not ok.
   /// @return Same as estimate.status. A refused frame changes nothing but the counters.
   Status Process(const DepthFrame& frame, Estimate& estimate, StageClock clock = {}) noexcept;
 
-  /// Fuses a frame whose pose is known (turntable, robot arm) instead of estimating it. The object frame is the caller's.
-  /// Not to be mixed with Process() on the same object.
+  /// Fuses a frame whose pose is known (turntable, robot arm) instead of estimating it. The object
+  /// frame is the caller's. Not to be mixed with Process() on the same object.
   Status Fuse(const DepthFrame& frame, const PoseObjectFromCamera& T_oc, Estimate& estimate,
               StageClock clock = {}) noexcept;
 
@@ -52,7 +55,8 @@ class Tracker {
   [[nodiscard]] const Counters& totals() const noexcept { return totals_; }
 
  private:
-  static constexpr std::uint32_t kInitialFrames = 5;  ///< Frames after a start during which training catches up.
+  static constexpr std::uint32_t kInitialFrames =
+      5;  ///< Frames after a start during which training catches up.
   static constexpr std::uint32_t kFramesUntilVelocity = 3;
   static constexpr int kInitialBudgetFactor = 12;
   static constexpr float kDefinedPoseVariance = 1e-10F;  ///< (0.01 mm)^2 and (0.01 mrad)^2.
@@ -62,7 +66,8 @@ class Tracker {
 
   void Begin(const DepthFrame& frame, Estimate& estimate) noexcept;
   [[nodiscard]] Status Check(const DepthFrame& frame) const noexcept;
-  [[nodiscard]] Status Observe(const DepthFrame& frame, Estimate& estimate, StageStopwatch& stopwatch) noexcept;
+  [[nodiscard]] Status Observe(const DepthFrame& frame, Estimate& estimate,
+                               StageStopwatch& stopwatch) noexcept;
   void StartObject(const DepthFrame& frame) noexcept;
   [[nodiscard]] Aligned Register(Estimate& estimate) noexcept;
   [[nodiscard]] Status Conclude(const DepthFrame& frame, Status observed, const Aligned& aligned,
@@ -75,12 +80,12 @@ class Tracker {
   Config config_;
   ConfigIssue config_issue_;
   Counters totals_;
-  bool started_ = false;            ///< An object frame exists.
+  bool started_ = false;  ///< An object frame exists.
   std::uint8_t reset_counter_ = 0;
-  std::uint32_t frame_index_ = 0;   ///< Frames since the object frame was started.
+  std::uint32_t frame_index_ = 0;  ///< Frames since the object frame was started.
   bool has_stamp_ = false;
   StampNs last_stamp_ns_ = 0;
-  PoseObjectFromCamera T_oc_;       ///< Latest registered or predicted pose.
+  PoseObjectFromCamera T_oc_;           ///< Latest registered or predicted pose.
   PoseObjectFromCamera T_oc_previous_;  ///< Of the last registered frame.
 
   typename Segmenter<Limits>::Mask object_mask_;

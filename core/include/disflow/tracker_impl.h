@@ -5,19 +5,22 @@
 #include "disflow/tracker.h"
 
 /// @file
-/// Definitions of Tracker's members. Only needed to instantiate a profile of your own; the shipped ones are in the library.
+/// Definitions of Tracker's members. Only needed to instantiate a profile of your own; the shipped
+/// ones are in the library.
 
 namespace disflow {
 
 template <class Limits>
-Tracker<Limits>::Tracker(const Config& config) noexcept : config_(config), config_issue_(Validate(config)) {
+Tracker<Limits>::Tracker(const Config& config) noexcept
+    : config_(config), config_issue_(Validate(config)) {
   field_.Start(config_.field);
   model_edges_.Start();
 }
 
 // Section V, in the order in which the paper tells it.
 template <class Limits>
-Status Tracker<Limits>::Process(const DepthFrame& frame, Estimate& estimate, StageClock clock) noexcept {
+Status Tracker<Limits>::Process(const DepthFrame& frame, Estimate& estimate,
+                                StageClock clock) noexcept {
   Begin(frame, estimate);
   StageStopwatch stopwatch(clock, estimate);
   Status status = Check(frame);
@@ -29,7 +32,8 @@ Status Tracker<Limits>::Process(const DepthFrame& frame, Estimate& estimate, Sta
   // Which pixels are the object, and which surface they show.
   status = Observe(frame, estimate, stopwatch);
 
-  // V-B to V-D: the pose that puts the observed points onto the zero level of the distance field, then the twist.
+  // V-B to V-D: the pose that puts the observed points onto the zero level of the distance field,
+  // then the twist.
   if (started_) {
     const Aligned aligned = status == Status::kOk ? Register(estimate) : Aligned{};
     stopwatch.Mark(Stage::kRegister);
@@ -50,8 +54,8 @@ Status Tracker<Limits>::Process(const DepthFrame& frame, Estimate& estimate, Sta
 }
 
 template <class Limits>
-Status Tracker<Limits>::Fuse(const DepthFrame& frame, const PoseObjectFromCamera& T_oc, Estimate& estimate,
-                             StageClock clock) noexcept {
+Status Tracker<Limits>::Fuse(const DepthFrame& frame, const PoseObjectFromCamera& T_oc,
+                             Estimate& estimate, StageClock clock) noexcept {
   Begin(frame, estimate);
   StageStopwatch stopwatch(clock, estimate);
   Status status = T_oc.IsFinite() ? Check(frame) : Status::kInvalidTransform;
@@ -63,7 +67,8 @@ Status Tracker<Limits>::Fuse(const DepthFrame& frame, const PoseObjectFromCamera
       twist_filter_.Predict(frame.stamp_ns);
       twist_filter_.Update(T_oc_.Inverse(), kKnownPoseVariance * Mat6::Identity());
     } else {
-      twist_filter_.Start(config_.twist, frame.stamp_ns, T_oc_.Inverse(), kKnownPoseVariance * Mat6::Identity());
+      twist_filter_.Start(config_.twist, frame.stamp_ns, T_oc_.Inverse(),
+                          kKnownPoseVariance * Mat6::Identity());
       monitor_.Start(config_.monitor, frame.stamp_ns);
       started_ = true;
     }
@@ -100,20 +105,24 @@ Status Tracker<Limits>::Check(const DepthFrame& frame) const noexcept {
 }
 
 template <class Limits>
-Status Tracker<Limits>::Observe(const DepthFrame& frame, Estimate& estimate, StageStopwatch& stopwatch) noexcept {
+Status Tracker<Limits>::Observe(const DepthFrame& frame, Estimate& estimate,
+                                StageStopwatch& stopwatch) noexcept {
   has_stamp_ = true;
   last_stamp_ns_ = frame.stamp_ns;
   samples_.clear();
   edges_.clear();
   ModelPrior prior;
   if (started_) prior = {true, T_oc_, field_.bounds_min_m(), field_.bounds_max_m()};
-  const Status segmented = segmenter_.Segment(frame, config_.segmenter, prior, object_mask_, estimate.rejected);
+  const Status segmented =
+      segmenter_.Segment(frame, config_.segmenter, prior, object_mask_, estimate.rejected);
   if (segmented != Status::kOk) return segmented;
   interior_mask_.Erode(object_mask_, config_.sampler.border_px);
   stopwatch.Mark(Stage::kSegment);
 
-  const DepthReader depth(frame.depth, config_.segmenter.min_range_m, config_.segmenter.max_range_m);
-  sampler_.Sample(depth, frame.camera, interior_mask_, config_.sampler, samples_, estimate.rejected);
+  const DepthReader depth(frame.depth, config_.segmenter.min_range_m,
+                          config_.segmenter.max_range_m);
+  sampler_.Sample(depth, frame.camera, interior_mask_, config_.sampler, samples_,
+                  estimate.rejected);
   EdgeSampler<Limits>::Sample(depth, frame.camera, object_mask_, sampler_, config_.sampler, edges_);
   estimate.samples = static_cast<std::uint16_t>(samples_.size());
   estimate.inverse_depth_std_per_m = sampler_.noise_std();
@@ -131,7 +140,8 @@ void Tracker<Limits>::StartObject(const DepthFrame& frame) noexcept {
   T_oc_ = PoseObjectFromCamera(Mat3::Identity(), Vec3(-centroid));
   T_oc_previous_ = T_oc_;
   // The first pose is exact by definition of the object frame.
-  twist_filter_.Start(config_.twist, frame.stamp_ns, T_oc_.Inverse(), kDefinedPoseVariance * Mat6::Identity());
+  twist_filter_.Start(config_.twist, frame.stamp_ns, T_oc_.Inverse(),
+                      kDefinedPoseVariance * Mat6::Identity());
   monitor_.Start(config_.monitor, frame.stamp_ns);
   frame_index_ = 0;
   started_ = true;
@@ -140,12 +150,13 @@ void Tracker<Limits>::StartObject(const DepthFrame& frame) noexcept {
 template <class Limits>
 typename Tracker<Limits>::Aligned Tracker<Limits>::Register(Estimate& estimate) noexcept {
   registration_.SetObservations(samples_, edges_);
-  const auto start = PoseSearch<Limits>::Find(registration_, field_, model_edges_, config_.registration, T_oc_,
-                                              T_oc_previous_, frame_index_ >= kFramesUntilVelocity);
+  const auto start =
+      PoseSearch<Limits>::Find(registration_, field_, model_edges_, config_.registration, T_oc_,
+                               T_oc_previous_, frame_index_ >= kFramesUntilVelocity);
   // Where the prediction was not believed it must not pull either.
   const PoseObjectFromCamera& T_expected = start.tried > 1 ? start.T_oc : T_oc_;
-  Aligned aligned = registration_.Align(field_, model_edges_, config_.registration, start.T_oc, T_expected,
-                                        config_.registration.iterations);
+  Aligned aligned = registration_.Align(field_, model_edges_, config_.registration, start.T_oc,
+                                        T_expected, config_.registration.iterations);
   estimate.hypotheses = static_cast<std::uint8_t>(start.tried);
   estimate.iterations = static_cast<std::uint8_t>(aligned.iterations);
   estimate.inliers = static_cast<std::uint16_t>(aligned.inliers);
@@ -189,11 +200,13 @@ Status Tracker<Limits>::Conclude(const DepthFrame& frame, Status observed, const
   return accepted ? Status::kOk : Status::kRegistrationFailed;
 }
 
-/// Covariance of (origin's position, rotation) in camera axes from the information about the centre, object frame.
+/// Covariance of (origin's position, rotation) in camera axes from the information about the
+/// centre, object frame.
 template <class Limits>
 Mat6 Tracker<Limits>::PoseCovariance(const Aligned& aligned) const noexcept {
   const Mat6 covariance_o = SymmetricSolver6(aligned.information).Inverse();
-  // T_oc' = exp(xi) T_oc moves the object's origin by -t + theta x c and turns the object by -theta, object axes.
+  // T_oc' = exp(xi) T_oc moves the object's origin by -t + theta x c and turns the object by
+  // -theta, object axes.
   const Mat3 R_co = aligned.T_oc.rotation().transpose();
   Mat6 jacobian = Mat6::Zero();
   jacobian.template topLeftCorner<3, 3>() = -R_co;
@@ -217,11 +230,12 @@ void Tracker<Limits>::FuseObservations(Estimate& estimate) noexcept {
     SurfaceSample observation = samples_[std::min(static_cast<int>(index), samples_.size() - 1)];
     observation.position_m = T_oc_ * observation.position_m;
     observation.normal = R_oc * observation.normal;
-    (void)field_.Insert(observation, frame_index_, estimate.rejected);  // the outcome is in the counters
+    (void)field_.Insert(observation, frame_index_,
+                        estimate.rejected);  // the outcome is in the counters
   }
   for (const EdgePoint& point : edges_) {
-    const EdgePoint moved{T_oc_ * point.position_m, R_oc * point.direction, R_oc * point.normal, R_oc * point.ray,
-                          point.pixel_m};
+    const EdgePoint moved{T_oc_ * point.position_m, R_oc * point.direction, R_oc * point.normal,
+                          R_oc * point.ray, point.pixel_m};
     model_edges_.Insert(moved, config_.field.merge_radius_m, estimate.rejected);
   }
 }
@@ -234,18 +248,21 @@ void Tracker<Limits>::Retrain() noexcept {
 }
 
 template <class Limits>
-Status Tracker<Limits>::Finish(Status status, const DepthFrame& frame, Estimate& estimate) noexcept {
+Status Tracker<Limits>::Finish(Status status, const DepthFrame& frame,
+                               Estimate& estimate) noexcept {
   estimate.status = status;
   if (status != Status::kOk) {
-    const bool refused = status == Status::kInvalidConfig || status == Status::kStampNotIncreasing ||
-                         CheckFrame(frame, Limits::kMaxImageWidth, Limits::kMaxImageHeight) != Status::kOk;
+    const bool refused =
+        status == Status::kInvalidConfig || status == Status::kStampNotIncreasing ||
+        CheckFrame(frame, Limits::kMaxImageWidth, Limits::kMaxImageHeight) != Status::kOk;
     ++(refused ? estimate.rejected.frames_rejected : estimate.rejected.frames_unregistered);
   }
   if (started_) {
     estimate.T_co = T_oc_.Inverse();
     estimate.twist = twist_filter_.twist();
     estimate.twist_covariance = twist_filter_.twist_covariance();
-    if (estimate.pose_covariance.isZero(0.0F)) estimate.pose_covariance = twist_filter_.pose_covariance();
+    if (estimate.pose_covariance.isZero(0.0F))
+      estimate.pose_covariance = twist_filter_.pose_covariance();
     estimate.state = monitor_.state();
     estimate.quality = monitor_.quality();
     if (frame.has_T_wc) {

@@ -15,7 +15,8 @@ class DepthReader {
       : view_(view), min_m_(min_range_m), max_m_(max_range_m) {}
 
   [[nodiscard]] float At(int u, int v) const noexcept {
-    const std::byte* pixel = view_.row(v) + static_cast<std::ptrdiff_t>(u) * view_.bytes_per_pixel();
+    const std::byte* pixel =
+        view_.row(v) + static_cast<std::ptrdiff_t>(u) * view_.bytes_per_pixel();
     float depth_m = 0.0F;
     if (view_.format == DepthFormat::kUint16) {
       std::uint16_t raw = 0;

@@ -10,8 +10,9 @@
 
 namespace disflow {
 
-/// Finds occluding edges: places on the object's outline where a well-fitted, steady surface ends in front of something
-/// farther away. When only one or two flat faces are visible the object could slide along them unseen; these points see it.
+/// Finds occluding edges: places on the object's outline where a well-fitted, steady surface ends
+/// in front of something farther away. When only one or two flat faces are visible the object could
+/// slide along them unseen; these points see it.
 template <class Limits>
 class EdgeSampler {
  public:
@@ -20,9 +21,11 @@ class EdgeSampler {
   /// @param object All of the object's pixels, not eroded.
   template <class Mask>
   static void Sample(const DepthReader& depth, const PinholeCamera& camera, const Mask& object,
-              const SurfaceSampler<Limits>& surfaces, const SamplerConfig& config, Edges& edges) noexcept {
+                     const SurfaceSampler<Limits>& surfaces, const SamplerConfig& config,
+                     Edges& edges) noexcept {
     edges.clear();
-    // Two passes: count the outline, then take every k-th of its points, so that the whole outline is represented.
+    // Two passes: count the outline, then take every k-th of its points, so that the whole outline
+    // is represented.
     int outline = 0;
     ForEachOutlinePixel(object, [&outline](int, int) { ++outline; });
     const int stride = 1 + outline / Limits::kMaxEdgePoints;
@@ -30,7 +33,8 @@ class EdgeSampler {
     ForEachOutlinePixel(object, [&](int u, int v) {
       if (index++ % stride != 0) return;
       EdgePoint edge;
-      if (MakeEdge(depth, camera, object, surfaces, config, u, v, edge)) (void)edges.push_back(edge);
+      if (MakeEdge(depth, camera, object, surfaces, config, u, v, edge))
+        (void)edges.push_back(edge);
     });
   }
 
@@ -43,12 +47,15 @@ class EdgeSampler {
     const PixelBox& box = object.box();
     for (int v = box.v_min; v < box.v_max; ++v) {
       object.ForEachInRow(v, [&](int u) {
-        if (!object.Test(u - 1, v) || !object.Test(u + 1, v) || !object.Test(u, v - 1) || !object.Test(u, v + 1)) visit(u, v);
+        if (!object.Test(u - 1, v) || !object.Test(u + 1, v) || !object.Test(u, v - 1) ||
+            !object.Test(u, v + 1))
+          visit(u, v);
       });
     }
   }
 
-  /// The outline near a pixel as a straight line: inward normal, and signed distance of the pixel's centre from it.
+  /// The outline near a pixel as a straight line: inward normal, and signed distance of the pixel's
+  /// centre from it.
   struct OutlineFit {
     bool straight = false;
     Vec2 inward = Vec2::Zero();
@@ -72,7 +79,8 @@ class EdgeSampler {
     const float norm = sum.norm();
     const auto area = static_cast<float>(total);
     const float radius = std::sqrt(area / 3.14159265F);
-    // A half disk's centroid is 4 r / (3 pi) from the centre; at corners and thin parts it is nearer.
+    // A half disk's centroid is 4 r / (3 pi) from the centre; at corners and thin parts it is
+    // nearer.
     const float half_moment = 0.5F * area * 0.4244F * radius;
     const float share = static_cast<float>(inside) / area;
     if (norm < 0.85F * half_moment || share < 0.35F || share > 0.72F) return fit;
@@ -84,24 +92,28 @@ class EdgeSampler {
   }
 
   template <class Mask>
-  [[nodiscard]] static bool MakeEdge(const DepthReader& depth, const PinholeCamera& camera, const Mask& object,
-                                     const SurfaceSampler<Limits>& surfaces, const SamplerConfig& config, int u, int v,
+  [[nodiscard]] static bool MakeEdge(const DepthReader& depth, const PinholeCamera& camera,
+                                     const Mask& object, const SurfaceSampler<Limits>& surfaces,
+                                     const SamplerConfig& config, int u, int v,
                                      EdgePoint& edge) noexcept {
     const OutlineFit fit = FitOutline(object, u, v);
     if (!fit.straight) return false;
     const auto at = [&](float inward_px) {
-      return Vec2(static_cast<float>(u) + inward_px * fit.inward.x(), static_cast<float>(v) + inward_px * fit.inward.y());
+      return Vec2(static_cast<float>(u) + inward_px * fit.inward.x(),
+                  static_cast<float>(v) + inward_px * fit.inward.y());
     };
     const auto surface_at = [&](float inward_px) {
       const Vec2 p = at(inward_px);
-      return surfaces.SurfaceAt(static_cast<int>(std::lround(p.x())), static_cast<int>(std::lround(p.y())));
+      return surfaces.SurfaceAt(static_cast<int>(std::lround(p.x())),
+                                static_cast<int>(std::lround(p.y())));
     };
     const auto step = static_cast<float>(std::max(surfaces.block_px(), 2));
     const float first_px = static_cast<float>(config.border_px) + 0.75F * step;
     auto near = surface_at(first_px);
     if (!near.valid) near = surface_at(first_px + step);
     const auto inner = surface_at(first_px + 2.0F * step);
-    if (!near.valid || !inner.valid || near.cos_incidence < config.edge_min_cos_incidence) return false;
+    if (!near.valid || !inner.valid || near.cos_incidence < config.edge_min_cos_incidence)
+      return false;
     const float tilt_variance = near.normal_variance + inner.normal_variance;
     const float allowed_tilt = std::min(0.3F, 0.08F + 2.0F * std::sqrt(tilt_variance));
     if ((near.normal - inner.normal).norm() > allowed_tilt) return false;
@@ -123,11 +135,12 @@ class EdgeSampler {
     return edge.direction.allFinite();
   }
 
-  /// The pixels up to the outline lie on the surface: no sliver of another face, seen at a flat angle, is in between.
+  /// The pixels up to the outline lie on the surface: no sliver of another face, seen at a flat
+  /// angle, is in between.
   template <class At>
-  [[nodiscard]] static bool ReachesOutline(const DepthReader& depth, const PinholeCamera& camera, const At& at,
-                                           const typename SurfaceSampler<Limits>::LocalSurface& surface,
-                                           float noise_std) noexcept {
+  [[nodiscard]] static bool ReachesOutline(
+      const DepthReader& depth, const PinholeCamera& camera, const At& at,
+      const typename SurfaceSampler<Limits>::LocalSurface& surface, float noise_std) noexcept {
     constexpr int kCheckedPx = 3;
     constexpr float kPlaneTolerance = 0.002F;  // share of the depth
     const float tolerance = 4.0F * noise_std + kPlaneTolerance / std::abs(surface.offset_m);
@@ -138,22 +151,26 @@ class EdgeSampler {
       const auto v = static_cast<int>(std::lround(p.y()));
       const float depth_m = depth.AtOrZero(u, v);
       if (depth_m <= 0.0F) continue;
-      const float expected = surface.normal.dot(camera.Ray(static_cast<float>(u), static_cast<float>(v))) / surface.offset_m;
+      const float expected =
+          surface.normal.dot(camera.Ray(static_cast<float>(u), static_cast<float>(v))) /
+          surface.offset_m;
       if (std::abs(1.0F / depth_m - expected) > tolerance) return false;
       ++agreeing;
     }
     return agreeing >= 2;
   }
 
-  /// Everything just outside of the outline is farther away or unseen, and something farther is seen.
+  /// Everything just outside of the outline is farther away or unseen, and something farther is
+  /// seen.
   template <class At>
-  [[nodiscard]] static bool EndsBeforeBackground(const DepthReader& depth, const SamplerConfig& config, const At& at,
+  [[nodiscard]] static bool EndsBeforeBackground(const DepthReader& depth,
+                                                 const SamplerConfig& config, const At& at,
                                                  float depth_m) noexcept {
     bool background = false;
     for (int i = 1; i <= kProbePx; ++i) {
       const Vec2 p = at(-static_cast<float>(i) - 1.0F);
-      const float outside_m =
-          depth.AtOrZero(static_cast<int>(std::lround(p.x())), static_cast<int>(std::lround(p.y())));
+      const float outside_m = depth.AtOrZero(static_cast<int>(std::lround(p.x())),
+                                             static_cast<int>(std::lround(p.y())));
       if (outside_m <= 0.0F) continue;
       if (outside_m > depth_m + config.edge_background_gap_m) {
         background = true;

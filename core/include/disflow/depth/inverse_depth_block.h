@@ -6,12 +6,13 @@
 #include "disflow/types.h"
 
 /// @file
-/// Planes are fitted in (u, v, w = 1/z): there a plane is affine in the pixel coordinates and the noise of a stereo or
-/// structured-light sensor is the same everywhere.
+/// Planes are fitted in (u, v, w = 1/z): there a plane is affine in the pixel coordinates and the
+/// noise of a stereo or structured-light sensor is the same everywhere.
 
 namespace disflow {
 
-/// Sums over the pixels of one block, relative to a pixel (u0, v0) and a reference inverse depth, so that float suffices.
+/// Sums over the pixels of one block, relative to a pixel (u0, v0) and a reference inverse depth,
+/// so that float suffices.
 struct PixelMoments {
   float n = 0.0F;
   float u = 0.0F, v = 0.0F, w = 0.0F;
@@ -56,11 +57,12 @@ struct PixelMoments {
 struct InverseDepthPlane {
   bool valid = false;
   float n = 0.0F;
-  float mean_u = 0.0F, mean_v = 0.0F;  ///< Relative to the moments' origin [px].
-  float mean_w = 0.0F;                 ///< [1/m]
+  float mean_u = 0.0F, mean_v = 0.0F;    ///< Relative to the moments' origin [px].
+  float mean_w = 0.0F;                   ///< [1/m]
   float slope_u = 0.0F, slope_v = 0.0F;  ///< [1/(m px)]
   float residual_variance = 0.0F;        ///< Per pixel, unbiased [1/m^2].
-  float inverse_uu = 0.0F, inverse_uv = 0.0F, inverse_vv = 0.0F;  ///< Inverse scatter of the pixels: slope covariance / variance.
+  float inverse_uu = 0.0F, inverse_uv = 0.0F,
+        inverse_vv = 0.0F;  ///< Inverse scatter of the pixels: slope covariance / variance.
 
   [[nodiscard]] float At(float u, float v) const noexcept {
     return mean_w + slope_u * (u - mean_u) + slope_v * (v - mean_v);

@@ -20,7 +20,8 @@ struct PixelBox {
   [[nodiscard]] int height() const noexcept { return v_max - v_min; }
 };
 
-/// One bit per pixel, with the box that holds all set bits. Word-wise, so that erosion costs a few operations per 64 pixels.
+/// One bit per pixel, with the box that holds all set bits. Word-wise, so that erosion costs a few
+/// operations per 64 pixels.
 template <int kMaxWidth, int kMaxHeight>
 class PixelMask {
  public:
@@ -74,7 +75,8 @@ class PixelMask {
     if (count_ == 0) box_ = {};
   }
 
-  /// Makes this the erosion of `source` by a square of (2 radius + 1) pixels; the image border counts as outside.
+  /// Makes this the erosion of `source` by a square of (2 radius + 1) pixels; the image border
+  /// counts as outside.
   void Erode(const PixelMask& source, int radius_px) noexcept {
     Start(source.width_px_, source.height_px_);
     const PixelBox box = source.box_;

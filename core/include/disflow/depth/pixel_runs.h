@@ -20,14 +20,16 @@ struct PixelRun {
   std::int32_t pixels = 0;  ///< Of the whole component, valid at its root.
 };
 
-/// Connected components of a depth image over depth continuity, by union-find on horizontal runs. One pass over the
-/// image, memory for kMaxRuns runs; rows that no longer fit are left out and counted.
+/// Connected components of a depth image over depth continuity, by union-find on horizontal runs.
+/// One pass over the image, memory for kMaxRuns runs; rows that no longer fit are left out and
+/// counted.
 template <int kMaxRuns>
 class PixelRuns {
  public:
   /// @param accept accept(u, v, depth_m): whether the pixel may belong to the object at all.
   template <class Accept>
-  void Build(const DepthReader& depth, const PixelBox& box, float jump_ratio, Accept&& accept) noexcept {
+  void Build(const DepthReader& depth, const PixelBox& box, float jump_ratio,
+             Accept&& accept) noexcept {
     count_ = 0;
     dropped_ = 0;
     int above_begin = 0;
@@ -69,7 +71,8 @@ class PixelRuns {
   }
 
  private:
-  // Sensors lose single pixels; a run goes on across such gaps so that holes do not count as the object's outline.
+  // Sensors lose single pixels; a run goes on across such gaps so that holes do not count as the
+  // object's outline.
   static constexpr int kBridgedGapPx = 3;
 
   [[nodiscard]] PixelRun& run(int i) noexcept { return runs_[static_cast<std::size_t>(i)]; }
@@ -79,15 +82,16 @@ class PixelRuns {
   }
 
   template <class Accept>
-  void BuildRow(const DepthReader& depth, const PixelBox& box, int v, float jump_ratio, Accept& accept) noexcept {
+  void BuildRow(const DepthReader& depth, const PixelBox& box, int v, float jump_ratio,
+                Accept& accept) noexcept {
     int begin = -1;
     int last_valid = -1;
     float last_depth_m = 0.0F;
     for (int u = box.u_min; u < box.u_max; ++u) {
       const float depth_m = depth.At(u, v);
       if (depth_m <= 0.0F || !accept(u, v, depth_m)) continue;
-      const bool joins =
-          begin >= 0 && u - last_valid <= kBridgedGapPx + 1 && Continuous(depth_m, last_depth_m, jump_ratio);
+      const bool joins = begin >= 0 && u - last_valid <= kBridgedGapPx + 1 &&
+                         Continuous(depth_m, last_depth_m, jump_ratio);
       if (!joins) {
         if (begin >= 0) Append(v, begin, last_valid + 1);
         begin = u;
@@ -103,12 +107,13 @@ class PixelRuns {
       ++dropped_;
       return;
     }
-    run(count_) = {static_cast<std::int16_t>(v), static_cast<std::int16_t>(u_begin), static_cast<std::int16_t>(u_end),
-                   count_, 0};
+    run(count_) = {static_cast<std::int16_t>(v), static_cast<std::int16_t>(u_begin),
+                   static_cast<std::int16_t>(u_end), count_, 0};
     ++count_;
   }
 
-  void ConnectRows(const DepthReader& depth, float jump_ratio, int a, int a_end, int b, int b_end) noexcept {
+  void ConnectRows(const DepthReader& depth, float jump_ratio, int a, int a_end, int b,
+                   int b_end) noexcept {
     while (a < a_end && b < b_end) {
       const int u_begin = std::max(run(a).u_begin, run(b).u_begin);
       const int u_end = std::min(run(a).u_end, run(b).u_end);
@@ -121,7 +126,8 @@ class PixelRuns {
     }
   }
 
-  [[nodiscard]] static bool Touch(const DepthReader& depth, float jump_ratio, int v, int u_begin, int u_end) noexcept {
+  [[nodiscard]] static bool Touch(const DepthReader& depth, float jump_ratio, int v, int u_begin,
+                                  int u_end) noexcept {
     for (int u = u_begin; u < u_end; ++u) {
       const float above_m = depth.At(u, v - 1);
       const float below_m = depth.At(u, v);

@@ -12,20 +12,20 @@ namespace disflow {
 /// What is known of the object before a frame is segmented: its predicted pose and extent.
 struct ModelPrior {
   bool known = false;
-  PoseObjectFromCamera T_oc;       ///< Predicted.
-  Vec3 box_min_m = Vec3::Zero();   ///< Axis-aligned bounds of the model, object frame.
+  PoseObjectFromCamera T_oc;      ///< Predicted.
+  Vec3 box_min_m = Vec3::Zero();  ///< Axis-aligned bounds of the model, object frame.
   Vec3 box_max_m = Vec3::Zero();
 };
 
-/// Decides which pixels are the object: a given mask; else the range gate and a region grown over depth continuity from
-/// a seed, and once a model exists only where the predicted model can be.
+/// Decides which pixels are the object: a given mask; else the range gate and a region grown over
+/// depth continuity from a seed, and once a model exists only where the predicted model can be.
 template <class Limits>
 class Segmenter {
  public:
   using Mask = PixelMask<Limits::kMaxImageWidth, Limits::kMaxImageHeight>;
 
-  [[nodiscard]] Status Segment(const DepthFrame& frame, const SegmenterConfig& config, const ModelPrior& prior,
-                               Mask& object, Counters& counters) noexcept {
+  [[nodiscard]] Status Segment(const DepthFrame& frame, const SegmenterConfig& config,
+                               const ModelPrior& prior, Mask& object, Counters& counters) noexcept {
     object.Start(frame.depth.width_px, frame.depth.height_px);
     if (frame.mask.given()) {
       CopyMask(frame.mask, object);
@@ -54,21 +54,25 @@ class Segmenter {
   }
 
   /// Everything is the object; the range gate drops what is too far pixel by pixel.
-  static void TakeAll(const DepthFrame& frame, const SegmenterConfig& config, Mask& object) noexcept {
+  static void TakeAll(const DepthFrame& frame, const SegmenterConfig& config,
+                      Mask& object) noexcept {
     const PixelBox box = SearchBox(frame, config, ModelPrior{});
     for (int v = box.v_min; v < box.v_max; ++v) object.SetRun(v, box.u_min, box.u_max);
     object.Finish();
   }
 
-  void GrowRegion(const DepthFrame& frame, const SegmenterConfig& config, const ModelPrior& prior, Mask& object,
-                  Counters& counters) noexcept {
+  void GrowRegion(const DepthFrame& frame, const SegmenterConfig& config, const ModelPrior& prior,
+                  Mask& object, Counters& counters) noexcept {
     const DepthReader depth(frame.depth, config.min_range_m, config.max_range_m);
     const PixelBox box = SearchBox(frame, config, prior);
-    runs_.Build(depth, box, config.depth_jump_ratio, ModelGate{frame.camera, prior, config.model_margin_m});
+    runs_.Build(depth, box, config.depth_jump_ratio,
+                ModelGate{frame.camera, prior, config.model_margin_m});
     counters.runs_dropped += static_cast<std::uint32_t>(runs_.dropped());
     const int component = ChooseComponent(depth, config, prior, box);
     if (component < 0) return;
-    runs_.ForEachRunOf(component, [&object](const PixelRun& run) { object.SetRun(run.v, run.u_begin, run.u_end); });
+    runs_.ForEachRunOf(component, [&object](const PixelRun& run) {
+      object.SetRun(run.v, run.u_begin, run.u_end);
+    });
     object.Finish();
   }
 
@@ -82,7 +86,8 @@ class Segmenter {
       if (!prior.known) return true;
       const Vec3 x_o =
           prior.T_oc * camera.BackProject(static_cast<float>(u), static_cast<float>(v), depth_m);
-      return ((x_o - prior.box_min_m).array() > -margin_m).all() && ((prior.box_max_m - x_o).array() > -margin_m).all();
+      return ((x_o - prior.box_min_m).array() > -margin_m).all() &&
+             ((prior.box_max_m - x_o).array() > -margin_m).all();
     }
   };
 
@@ -100,28 +105,34 @@ class Segmenter {
     return box;
   }
 
-  [[nodiscard]] static PixelBox ProjectBounds(const DepthFrame& frame, const SegmenterConfig& config,
-                                              const ModelPrior& prior, const PixelBox& image) noexcept {
+  [[nodiscard]] static PixelBox ProjectBounds(const DepthFrame& frame,
+                                              const SegmenterConfig& config,
+                                              const ModelPrior& prior,
+                                              const PixelBox& image) noexcept {
     const Vec3 center_o = 0.5F * (prior.box_min_m + prior.box_max_m);
-    const float radius_m = 0.5F * (prior.box_max_m - prior.box_min_m).norm() + config.model_margin_m;
+    const float radius_m =
+        0.5F * (prior.box_max_m - prior.box_min_m).norm() + config.model_margin_m;
     const Vec3 center_c = prior.T_oc.Inverse() * center_o;
     const float nearest_m = center_c.z() - radius_m;
     if (nearest_m < config.min_range_m) return image;
     const Vec2 center_px = frame.camera.Project(center_c);
-    // Perspective enlarges what is near: the sphere's outline is bounded by its size at the nearest depth.
+    // Perspective enlarges what is near: the sphere's outline is bounded by its size at the nearest
+    // depth.
     const float radius_u = frame.camera.fx_px * radius_m / nearest_m;
     const float radius_v = frame.camera.fy_px * radius_m / nearest_m;
     const auto clamp = [](float px, int high) {
       return static_cast<int>(std::min(std::max(px, 0.0F), static_cast<float>(high)));
     };
-    return {clamp(center_px.x() - radius_u, image.u_max), clamp(center_px.y() - radius_v, image.v_max),
-            clamp(center_px.x() + radius_u + 1.0F, image.u_max), clamp(center_px.y() + radius_v + 1.0F, image.v_max)};
+    return {clamp(center_px.x() - radius_u, image.u_max),
+            clamp(center_px.y() - radius_v, image.v_max),
+            clamp(center_px.x() + radius_u + 1.0F, image.u_max),
+            clamp(center_px.y() + radius_v + 1.0F, image.v_max)};
   }
 
-  /// The component under the seed pixel; else the largest; before a model exists, larger counts for less when farther
-  /// away, so that the object in front wins over the wall behind it.
-  [[nodiscard]] int ChooseComponent(const DepthReader& depth, const SegmenterConfig& config, const ModelPrior& prior,
-                                    const PixelBox& box) noexcept {
+  /// The component under the seed pixel; else the largest; before a model exists, larger counts for
+  /// less when farther away, so that the object in front wins over the wall behind it.
+  [[nodiscard]] int ChooseComponent(const DepthReader& depth, const SegmenterConfig& config,
+                                    const ModelPrior& prior, const PixelBox& box) noexcept {
     if (!prior.known && config.seed_u_px >= 0 && config.seed_v_px >= 0) {
       return runs_.ComponentAt(config.seed_u_px, config.seed_v_px);
     }

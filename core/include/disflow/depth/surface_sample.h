@@ -8,11 +8,12 @@ namespace disflow {
 /// A measured piece of surface. The frame (camera or object) is said where it is used.
 struct SurfaceSample {
   Vec3 position_m = Vec3::Zero();
-  Vec3 normal = Vec3::Zero();         ///< Unit length, towards the camera that saw it.
-  float variance_m2 = 0.0F;           ///< Of the position along the normal, this sample's own pixels only.
-  float fused_variance_m2 = 0.0F;     ///< Same, of the whole fitted window: what the model may believe.
-  float normal_variance = 0.0F;       ///< Per tangential component [rad^2].
-  float cos_incidence = 0.0F;         ///< Between viewing ray and normal, positive.
+  Vec3 normal = Vec3::Zero();  ///< Unit length, towards the camera that saw it.
+  float variance_m2 = 0.0F;    ///< Of the position along the normal, this sample's own pixels only.
+  float fused_variance_m2 =
+      0.0F;                      ///< Same, of the whole fitted window: what the model may believe.
+  float normal_variance = 0.0F;  ///< Per tangential component [rad^2].
+  float cos_incidence = 0.0F;    ///< Between viewing ray and normal, positive.
 };
 
 /// A point where a steady surface ends in front of something farther away.

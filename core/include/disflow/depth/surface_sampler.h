@@ -17,9 +17,10 @@ namespace disflow {
 
 /// Turns the object's pixels into at most M surface samples with position, normal and variance.
 ///
-/// Pixels are summed per small block; planes are fitted to windows of 3x3 blocks in inverse depth (see
-/// inverse_depth_block.h). Where the whole window does not fit one plane, windows to one side are tried, so that creases
-/// keep their normals; what fits nothing is a flying pixel or clutter and is counted and dropped.
+/// Pixels are summed per small block; planes are fitted to windows of 3x3 blocks in inverse depth
+/// (see inverse_depth_block.h). Where the whole window does not fit one plane, windows to one side
+/// are tried, so that creases keep their normals; what fits nothing is a flying pixel or clutter
+/// and is counted and dropped.
 template <class Limits>
 class SurfaceSampler {
  public:
@@ -27,23 +28,26 @@ class SurfaceSampler {
 
   /// @param interior Object pixels away from the outline.
   template <class Mask>
-  void Sample(const DepthReader& depth, const PinholeCamera& camera, const Mask& interior, const SamplerConfig& config,
-              Samples& samples, Counters& counters) noexcept {
+  void Sample(const DepthReader& depth, const PinholeCamera& camera, const Mask& interior,
+              const SamplerConfig& config, Samples& samples, Counters& counters) noexcept {
     samples.clear();
     LayOutGrid(interior, config);
     SumBlocks(depth, interior, counters);
-    noise_std_ = config.inverse_depth_std_per_m > 0.0F ? config.inverse_depth_std_per_m
-                                                       : std::max(EstimateNoise(), config.min_inverse_depth_std_per_m);
+    noise_std_ = config.inverse_depth_std_per_m > 0.0F
+                     ? config.inverse_depth_std_per_m
+                     : std::max(EstimateNoise(), config.min_inverse_depth_std_per_m);
     for (int row = 0; row < rows_; ++row) {
-      for (int column = 0; column < columns_; ++column) FitBlock(camera, config, column, row, samples, counters);
+      for (int column = 0; column < columns_; ++column)
+        FitBlock(camera, config, column, row, samples, counters);
     }
   }
 
-  /// The fitted plane of the block nearest to a pixel in the direction of the object's inside; for edge points.
+  /// The fitted plane of the block nearest to a pixel in the direction of the object's inside; for
+  /// edge points.
   struct LocalSurface {
     bool valid = false;
-    Vec3 normal = Vec3::Zero();      ///< Camera frame.
-    float offset_m = 0.0F;           ///< normal . x = offset on the plane.
+    Vec3 normal = Vec3::Zero();  ///< Camera frame.
+    float offset_m = 0.0F;       ///< normal . x = offset on the plane.
     float normal_variance = 0.0F;
     float cos_incidence = 0.0F;
   };
@@ -75,20 +79,25 @@ class SurfaceSampler {
   [[nodiscard]] std::size_t Index(int column, int row) const noexcept {
     return static_cast<std::size_t>(row * columns_ + column);
   }
-  [[nodiscard]] const PixelMoments& block(int column, int row) const noexcept { return blocks_[Index(column, row)]; }
+  [[nodiscard]] const PixelMoments& block(int column, int row) const noexcept {
+    return blocks_[Index(column, row)];
+  }
 
   template <class Mask>
   void LayOutGrid(const Mask& interior, const SamplerConfig& config) noexcept {
     const PixelBox& box = interior.box();
-    const float pixels_per_block = static_cast<float>(interior.count()) / static_cast<float>(config.target_blocks);
-    block_px_ = std::clamp(static_cast<int>(std::lround(std::sqrt(pixels_per_block))), config.min_block_px,
-                           config.max_block_px);
+    const float pixels_per_block =
+        static_cast<float>(interior.count()) / static_cast<float>(config.target_blocks);
+    block_px_ = std::clamp(static_cast<int>(std::lround(std::sqrt(pixels_per_block))),
+                           config.min_block_px, config.max_block_px);
     do {
       columns_ = (box.width() + block_px_ - 1) / block_px_;
       rows_ = (box.height() + block_px_ - 1) / block_px_;
       // Partly covered blocks yield samples too: leave them some room.
-      const float expected_samples = 1.2F * static_cast<float>(interior.count() / (block_px_ * block_px_));
-      if (columns_ * rows_ <= Limits::kMaxBlocks && expected_samples <= static_cast<float>(Limits::kMaxSurfaceSamples)) {
+      const float expected_samples =
+          1.2F * static_cast<float>(interior.count() / (block_px_ * block_px_));
+      if (columns_ * rows_ <= Limits::kMaxBlocks &&
+          expected_samples <= static_cast<float>(Limits::kMaxSurfaceSamples)) {
         break;
       }
     } while (++block_px_ > 0);
@@ -121,16 +130,20 @@ class SurfaceSampler {
   [[nodiscard]] PixelMoments MergeWindow(int column, int row, const Window& window) const noexcept {
     PixelMoments sum = block(column, row);
     const auto step = static_cast<float>(block_px_);
-    for (int r = std::max(row + window.row_min, 0); r <= std::min(row + window.row_max, rows_ - 1); ++r) {
-      for (int c = std::max(column + window.column_min, 0); c <= std::min(column + window.column_max, columns_ - 1); ++c) {
+    for (int r = std::max(row + window.row_min, 0); r <= std::min(row + window.row_max, rows_ - 1);
+         ++r) {
+      for (int c = std::max(column + window.column_min, 0);
+           c <= std::min(column + window.column_max, columns_ - 1); ++c) {
         if (c == column && r == row) continue;
-        sum.Merge(block(c, r), step * static_cast<float>(c - column), step * static_cast<float>(r - row));
+        sum.Merge(block(c, r), step * static_cast<float>(c - column),
+                  step * static_cast<float>(r - row));
       }
     }
     return sum;
   }
 
-  /// Sensor noise of 1/z per pixel: the median residual of small windows, which curvature and creases hardly disturb.
+  /// Sensor noise of 1/z per pixel: the median residual of small windows, which curvature and
+  /// creases hardly disturb.
   [[nodiscard]] float EstimateNoise() noexcept {
     // A block of fewer than 4x4 pixels leaves too few degrees of freedom by itself.
     const Window window = block_px_ >= 4 ? Window{0, 0, 0, 0} : Window{0, 1, 0, 1};
@@ -139,7 +152,8 @@ class SurfaceSampler {
     for (int i = 0; i < columns_ * rows_ && count < kNoiseBlocks; i += stride) {
       const int column = i % columns_;
       const int row = i / columns_;
-      const float full = static_cast<float>(block_px_ * block_px_ * (window.row_max + 1) * (window.column_max + 1));
+      const float full = static_cast<float>(block_px_ * block_px_ * (window.row_max + 1) *
+                                            (window.column_max + 1));
       const PixelMoments sum = MergeWindow(column, row, window);
       if (sum.n < 0.8F * full) continue;
       const InverseDepthPlane plane = InverseDepthPlane::Fit(sum);
@@ -151,8 +165,8 @@ class SurfaceSampler {
     return std::sqrt(*middle);
   }
 
-  void FitBlock(const PinholeCamera& camera, const SamplerConfig& config, int column, int row, Samples& samples,
-                Counters& counters) noexcept {
+  void FitBlock(const PinholeCamera& camera, const SamplerConfig& config, int column, int row,
+                Samples& samples, Counters& counters) noexcept {
     const PixelMoments& own = block(column, row);
     if (own.n == 0.0F) return;
     const auto area = static_cast<float>(block_px_ * block_px_);
@@ -181,7 +195,8 @@ class SurfaceSampler {
     const float own_u = own.u / own.n;
     const float own_v = own.v / own.n;
     const float own_w = own.w_reference + own.w / own.n;
-    // Curved surface bends away from any plane, which a good sensor sees: it must not be taken for clutter.
+    // Curved surface bends away from any plane, which a good sensor sees: it must not be taken for
+    // clutter.
     const float bend = config.max_bend_ratio * own_w;
     InverseDepthPlane best;
     for (std::size_t i = 0; i < kWindows.size(); ++i) {
@@ -191,13 +206,15 @@ class SurfaceSampler {
       const float expected = noise_variance * (1.0F / own.n + plane.Leverage(own_u, own_v));
       if (deviation * deviation > 9.0F * expected + bend * bend) continue;
       if (!best.valid || plane.residual_variance < best.residual_variance) best = plane;
-      if (i == 0 && plane.residual_variance <= limit) break;  // the whole window fits: no need to look at parts
+      if (i == 0 && plane.residual_variance <= limit)
+        break;  // the whole window fits: no need to look at parts
     }
     return best;
   }
 
-  [[nodiscard]] bool MakeSample(const PinholeCamera& camera, const SamplerConfig& config, int column, int row,
-                                const PixelMoments& own, const InverseDepthPlane& plane, SurfaceSample& sample,
+  [[nodiscard]] bool MakeSample(const PinholeCamera& camera, const SamplerConfig& config,
+                                int column, int row, const PixelMoments& own,
+                                const InverseDepthPlane& plane, SurfaceSample& sample,
                                 LocalSurface& surface) const noexcept {
     const float half = 0.5F * static_cast<float>(block_px_ - 1);
     const float du = own.u / own.n;
@@ -219,7 +236,8 @@ class SurfaceSampler {
     sample.cos_incidence = w / (g_norm * ray_norm);
     if (sample.cos_incidence < config.min_cos_incidence) return false;
     // dz = z^2 dw along the ray; projected onto the normal.
-    const float effective_std = std::sqrt(std::fmax(noise_std_ * noise_std_, plane.residual_variance));
+    const float effective_std =
+        std::sqrt(std::fmax(noise_std_ * noise_std_, plane.residual_variance));
     const float along_normal = depth_m * depth_m * ray_norm * sample.cos_incidence * effective_std;
     const float floor = config.sample_floor_m * config.sample_floor_m;
     sample.variance_m2 = along_normal * along_normal / own.n + floor;
@@ -227,9 +245,11 @@ class SurfaceSampler {
     // Slopes tilt the plane by f ds / |g|.
     const float tilt_u = camera.fx_px / g_norm;
     const float tilt_v = camera.fy_px / g_norm;
-    sample.normal_variance = 0.5F * effective_std * effective_std *
-                             (plane.inverse_uu * tilt_u * tilt_u + plane.inverse_vv * tilt_v * tilt_v);
-    surface = {true, sample.normal, sample.normal.dot(sample.position_m), sample.normal_variance, sample.cos_incidence};
+    sample.normal_variance =
+        0.5F * effective_std * effective_std *
+        (plane.inverse_uu * tilt_u * tilt_u + plane.inverse_vv * tilt_v * tilt_v);
+    surface = {true, sample.normal, sample.normal.dot(sample.position_m), sample.normal_variance,
+               sample.cos_incidence};
     return true;
   }
 

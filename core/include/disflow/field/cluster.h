@@ -18,18 +18,19 @@ struct ModelSample {
   std::uint16_t observations;
 };
 
-/// One side of the surface within one octree cell: its samples and the local GP trained on them and on those nearby.
+/// One side of the surface within one octree cell: its samples and the local GP trained on them and
+/// on those nearby.
 template <int kMaxSamples, int kMaxTrainingSamples>
 struct Cluster {
   FixedVector<ModelSample, kMaxSamples> samples;
   LocalGp<kMaxTrainingSamples> gp;
   Vec3 position_sum_m;
   Vec3 normal_sum;
-  Vec3 centroid_m;      ///< Mean of the samples' positions.
-  Vec3 mean_normal;     ///< Unit mean of the samples' normals.
+  Vec3 centroid_m;   ///< Mean of the samples' positions.
+  Vec3 mean_normal;  ///< Unit mean of the samples' normals.
   OctreeCell cell;
   Handle leaf;
-  Handle next;               ///< Next cluster of the same cell, or next free one.
+  Handle next;  ///< Next cluster of the same cell, or next free one.
   bool used;
   float dirtiness;           ///< What changed since the last training, in observations.
   std::uint32_t last_frame;  ///< When it was last observed.

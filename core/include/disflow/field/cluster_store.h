@@ -10,8 +10,8 @@
 
 namespace disflow {
 
-/// The bounded pools of octree nodes and local GPs, and who lies where. When a pool is full the cluster that was not
-/// observed for the longest time makes room.
+/// The bounded pools of octree nodes and local GPs, and who lies where. When a pool is full the
+/// cluster that was not observed for the longest time makes room.
 template <class Limits>
 class ClusterStore {
  public:
@@ -32,7 +32,9 @@ class ClusterStore {
   }
 
   [[nodiscard]] ClusterType& operator[](Handle handle) noexcept { return clusters_[handle]; }
-  [[nodiscard]] const ClusterType& operator[](Handle handle) const noexcept { return clusters_[handle]; }
+  [[nodiscard]] const ClusterType& operator[](Handle handle) const noexcept {
+    return clusters_[handle];
+  }
   [[nodiscard]] int size() const noexcept { return used_; }
   [[nodiscard]] const Tree& tree() const noexcept { return tree_; }
 
@@ -41,12 +43,14 @@ class ClusterStore {
   void ForEachNear(const Vec3& x_m, float radius_m, Visitor&& visit) const noexcept {
     const Vec3 reach = Vec3::Constant(radius_m);
     tree_.ForEachLeafInBox(x_m - reach, x_m + reach, [&](const OctreeCell&, Handle leaf) {
-      for (Handle h = tree_.head(leaf); h != kNoHandle; h = clusters_[h].next) visit(h, clusters_[h]);
+      for (Handle h = tree_.head(leaf); h != kNoHandle; h = clusters_[h].next)
+        visit(h, clusters_[h]);
     });
   }
 
   /// The cluster with the nearest centroid among those near x whose normal agrees, or kNoHandle.
-  [[nodiscard]] Handle FindNearest(const Vec3& x_m, const Vec3& normal, float radius_m, float min_cos) const noexcept {
+  [[nodiscard]] Handle FindNearest(const Vec3& x_m, const Vec3& normal, float radius_m,
+                                   float min_cos) const noexcept {
     Handle best = kNoHandle;
     float best_squared = 0.0F;
     ForEachNear(x_m, radius_m, [&](Handle handle, const ClusterType& cluster) {
@@ -120,12 +124,14 @@ class ClusterStore {
     return handle;
   }
 
-  /// Frees the cluster that was not observed for the longest time. Clusters seen in this very frame stay.
+  /// Frees the cluster that was not observed for the longest time. Clusters seen in this very frame
+  /// stay.
   [[nodiscard]] bool EvictStalest(std::uint32_t frame, Counters& counters) noexcept {
     Handle stalest = kNoHandle;
     ForEach([&](Handle handle, const ClusterType& cluster) {
       if (cluster.last_frame >= frame) return;
-      if (stalest == kNoHandle || cluster.last_frame < clusters_[stalest].last_frame) stalest = handle;
+      if (stalest == kNoHandle || cluster.last_frame < clusters_[stalest].last_frame)
+        stalest = handle;
     });
     if (stalest == kNoHandle) {
       ++counters.samples_refused;

@@ -9,8 +9,8 @@
 
 namespace disflow {
 
-/// The object's surface as a signed distance field in the object frame: local Gaussian processes in an octree (section IV).
-/// Outside is positive.
+/// The object's surface as a signed distance field in the object frame: local Gaussian processes in
+/// an octree (section IV). Outside is positive.
 template <class Limits>
 class DistanceField {
  public:
@@ -44,7 +44,8 @@ class DistanceField {
 
   /// Distance and gradient of the surface that an observation with this normal belongs to.
   /// @param radius_m The nearest model sample is at most this far away, measured along the surface.
-  [[nodiscard]] Match FindMatch(const Vec3& x_m, const Vec3& normal, float radius_m, float min_cos) const noexcept {
+  [[nodiscard]] Match FindMatch(const Vec3& x_m, const Vec3& normal, float radius_m,
+                                float min_cos) const noexcept {
     Match match;
     const Handle handle = store_.FindNearest(x_m, normal, radius_m, min_cos);
     if (handle == kNoHandle) {
@@ -57,8 +58,10 @@ class DistanceField {
     return match;
   }
 
-  /// As FindMatch(), on the octree's coarse levels: a plane per side of a larger node. For far starts.
-  [[nodiscard]] Match FindCoarseMatch(const Vec3& x_m, const Vec3& normal, float min_cos) const noexcept {
+  /// As FindMatch(), on the octree's coarse levels: a plane per side of a larger node. For far
+  /// starts.
+  [[nodiscard]] Match FindCoarseMatch(const Vec3& x_m, const Vec3& normal,
+                                      float min_cos) const noexcept {
     Match match;
     OctreeCell cell;
     if (!store_.tree().CellAt(x_m, cell)) return match;
@@ -78,13 +81,14 @@ class DistanceField {
 
   /// Takes an observation into the model: averaged into the sample near it, else as a new sample.
   /// @param observation In the object frame.
-  Fusion Insert(const SurfaceSample& observation, std::uint32_t frame, Counters& counters) noexcept {
+  Fusion Insert(const SurfaceSample& observation, std::uint32_t frame,
+                Counters& counters) noexcept {
     if (!IsUsable(observation)) {
       ++counters.observations_rejected;
       return Fusion::kRejected;
     }
-    const Match match = FindMatch(observation.position_m, observation.normal, config_.merge_radius_m * 2.0F,
-                                  config_.crease_cos);
+    const Match match = FindMatch(observation.position_m, observation.normal,
+                                  config_.merge_radius_m * 2.0F, config_.crease_cos);
     if (match.found) {
       const float sigma_m = std::sqrt(observation.fused_variance_m2 + match.variance_m2);
       if (std::abs(match.distance_m) > config_.reject_floor_m + 3.0F * sigma_m) {
@@ -105,7 +109,8 @@ class DistanceField {
   int Retrain(int budget) noexcept;
 
   /// Whether any cluster waits for training.
-  [[nodiscard]] float EvaluateCluster(const ClusterType& cluster, const Vec3& x_m, Vec3& gradient) const noexcept {
+  [[nodiscard]] float EvaluateCluster(const ClusterType& cluster, const Vec3& x_m,
+                                      Vec3& gradient) const noexcept {
     Match match;
     Evaluate(cluster, x_m, match);
     gradient = match.gradient;
@@ -113,7 +118,8 @@ class DistanceField {
   }
 
   /// Squared distance along the surface from x to the cluster's nearest sample.
-  [[nodiscard]] static float TangentialDistanceSquared(const ClusterType& cluster, const Vec3& x_m) noexcept {
+  [[nodiscard]] static float TangentialDistanceSquared(const ClusterType& cluster,
+                                                       const Vec3& x_m) noexcept {
     float best = 1e9F;
     for (const ModelSample& sample : cluster.samples) {
       const Vec3 offset = x_m - sample.position_m;
@@ -127,10 +133,11 @@ class DistanceField {
   /// Finite, with a unit normal and positive variances. Written so that NaN is not.
   [[nodiscard]] static bool IsUsable(const SurfaceSample& observation) noexcept {
     constexpr float kLargest = 1e6F;
-    return observation.position_m.cwiseAbs().maxCoeff() < kLargest && observation.position_m.allFinite() &&
-           std::abs(observation.normal.squaredNorm() - 1.0F) < 0.1F && observation.fused_variance_m2 > 0.0F &&
-           observation.fused_variance_m2 < kLargest && observation.normal_variance >= 0.0F &&
-           observation.normal_variance < kLargest;
+    return observation.position_m.cwiseAbs().maxCoeff() < kLargest &&
+           observation.position_m.allFinite() &&
+           std::abs(observation.normal.squaredNorm() - 1.0F) < 0.1F &&
+           observation.fused_variance_m2 > 0.0F && observation.fused_variance_m2 < kLargest &&
+           observation.normal_variance >= 0.0F && observation.normal_variance < kLargest;
   }
 
   void Evaluate(const ClusterType& cluster, const Vec3& x_m, Match& match) const noexcept {
@@ -152,22 +159,26 @@ class DistanceField {
     constexpr float kSimilarNormalCos = 0.8F;
     ModelSample* nearest = nullptr;
     float nearest_squared = config_.merge_radius_m * config_.merge_radius_m;
-    store_.ForEachNear(observation.position_m, config_.merge_radius_m, [&](Handle handle, const ClusterType& cluster) {
-      if (cluster.mean_normal.dot(observation.normal) < 0.5F) return;
-      for (ModelSample& sample : store_[handle].samples) {
-        const float squared = (sample.position_m - observation.position_m).squaredNorm();
-        if (squared < nearest_squared && sample.normal.dot(observation.normal) > kSimilarNormalCos) {
-          nearest_squared = squared;
-          nearest = &sample;
-          owner = handle;
-        }
-      }
-    });
+    store_.ForEachNear(observation.position_m, config_.merge_radius_m,
+                       [&](Handle handle, const ClusterType& cluster) {
+                         if (cluster.mean_normal.dot(observation.normal) < 0.5F) return;
+                         for (ModelSample& sample : store_[handle].samples) {
+                           const float squared =
+                               (sample.position_m - observation.position_m).squaredNorm();
+                           if (squared < nearest_squared &&
+                               sample.normal.dot(observation.normal) > kSimilarNormalCos) {
+                             nearest_squared = squared;
+                             nearest = &sample;
+                             owner = handle;
+                           }
+                         }
+                       });
     return nearest;
   }
 
   /// Kalman update of a sample's position along its normal, and of its normal.
-  [[nodiscard]] Fusion Merge(const SurfaceSample& observation, Handle owner, ModelSample& sample) noexcept {
+  [[nodiscard]] Fusion Merge(const SurfaceSample& observation, Handle owner,
+                             ModelSample& sample) noexcept {
     const bool better = observation.fused_variance_m2 < 0.25F * sample.variance_m2;
     if (sample.observations >= config_.freeze_after && !better) return Fusion::kFrozen;
     const Vec3 offset = observation.position_m - sample.position_m;
@@ -175,24 +186,29 @@ class DistanceField {
     // Two points of an arc lie on a chord that is perpendicular to the mean of their normals.
     const float shift_m = offset.dot(observation.normal + sample.normal) / (1.0F + cosine);
     const float tilt_variance = 0.25F * offset.squaredNorm() * observation.normal_variance;
-    const float gain = sample.variance_m2 / (sample.variance_m2 + observation.fused_variance_m2 + tilt_variance);
+    const float gain =
+        sample.variance_m2 / (sample.variance_m2 + observation.fused_variance_m2 + tilt_variance);
     sample.position_m += gain * shift_m * sample.normal;
     sample.variance_m2 *= 1.0F - gain;
-    const float normal_gain = sample.normal_variance / (sample.normal_variance + observation.normal_variance + 1e-6F);
-    sample.normal = (sample.normal + normal_gain * (observation.normal - sample.normal)).normalized();
+    const float normal_gain =
+        sample.normal_variance / (sample.normal_variance + observation.normal_variance + 1e-6F);
+    sample.normal =
+        (sample.normal + normal_gain * (observation.normal - sample.normal)).normalized();
     sample.normal_variance *= 1.0F - normal_gain;
     if (sample.observations < 65535) ++sample.observations;
     MarkDirty(sample, owner, 1.0F);
     return Fusion::kMerged;
   }
 
-  [[nodiscard]] Fusion Add(const SurfaceSample& observation, std::uint32_t frame, Counters& counters) noexcept {
-    const Handle handle = store_.FindOrCreate(observation.position_m, observation.normal, frame, counters);
+  [[nodiscard]] Fusion Add(const SurfaceSample& observation, std::uint32_t frame,
+                           Counters& counters) noexcept {
+    const Handle handle =
+        store_.FindOrCreate(observation.position_m, observation.normal, frame, counters);
     if (handle == kNoHandle) return Fusion::kRefused;
     ClusterType& cluster = store_[handle];
     cluster.last_frame = frame;
-    const ModelSample sample{observation.position_m, observation.normal, observation.fused_variance_m2,
-                             observation.normal_variance, 1};
+    const ModelSample sample{observation.position_m, observation.normal,
+                             observation.fused_variance_m2, observation.normal_variance, 1};
     if (!cluster.samples.push_back(sample)) {
       ++counters.samples_refused;
       return Fusion::kRefused;
@@ -207,13 +223,14 @@ class DistanceField {
   /// The sample's own cluster has changed, and so have those that train on it across their border.
   void MarkDirty(const ModelSample& sample, Handle owner, float change) noexcept {
     constexpr float kNeighbourShare = 0.3F;
-    store_.ForEachNear(sample.position_m, config_.overlap_m, [&](Handle handle, const ClusterType& cluster) {
-      if (handle == owner) {
-        store_[handle].dirtiness += change;
-      } else if (cluster.mean_normal.dot(sample.normal) > config_.crease_cos) {
-        store_[handle].dirtiness += kNeighbourShare * change;
-      }
-    });
+    store_.ForEachNear(sample.position_m, config_.overlap_m,
+                       [&](Handle handle, const ClusterType& cluster) {
+                         if (handle == owner) {
+                           store_[handle].dirtiness += change;
+                         } else if (cluster.mean_normal.dot(sample.normal) > config_.crease_cos) {
+                           store_[handle].dirtiness += kNeighbourShare * change;
+                         }
+                       });
   }
 
   void ExtendBounds(const Vec3& x_m) noexcept {
@@ -223,7 +240,8 @@ class DistanceField {
   }
 
   using Candidates = FixedVector<GpTrainingSample, 96>;
-  void GatherCandidates(const ClusterType& cluster, bool mature_only, Candidates& candidates) const noexcept;
+  void GatherCandidates(const ClusterType& cluster, bool mature_only,
+                        Candidates& candidates) const noexcept;
   [[nodiscard]] static int SpreadSelection(Candidates& candidates, const Vec3& center_m) noexcept;
   void TrainCluster(ClusterType& cluster) noexcept;
 

@@ -13,7 +13,8 @@ namespace disflow {
 
 template <class Limits>
 int DistanceField<Limits>::Retrain(int budget) noexcept {
-  // The `budget` dirtiest clusters by partial selection: a small sorted list, replaced from its end.
+  // The `budget` dirtiest clusters by partial selection: a small sorted list, replaced from its
+  // end.
   struct Entry {
     float dirtiness;
     Handle handle;
@@ -55,33 +56,42 @@ void DistanceField<Limits>::GatherCandidates(const ClusterType& cluster, bool ma
       if (!own && store_[h].mean_normal.dot(cluster.mean_normal) < config_.crease_cos) continue;
       for (const ModelSample& sample : store_[h].samples) {
         if (mature_only && sample.observations < config_.mature_after) continue;
-        if (!own && ((sample.position_m - low).minCoeff() < 0.0F || (high - sample.position_m).minCoeff() < 0.0F)) continue;
+        if (!own && ((sample.position_m - low).minCoeff() < 0.0F ||
+                     (high - sample.position_m).minCoeff() < 0.0F))
+          continue;
         if (!own && sample.normal.dot(cluster.mean_normal) < 0.5F) continue;
-        (void)candidates.push_back({sample.position_m, sample.normal, sample.variance_m2 + value_noise,
+        (void)candidates.push_back({sample.position_m, sample.normal,
+                                    sample.variance_m2 + value_noise,
                                     sample.normal_variance + normal_noise});
       }
     }
   });
 }
 
-/// Moves the best spread subset to the front: farthest-point selection from the centre outwards. @return Its size.
+/// Moves the best spread subset to the front: farthest-point selection from the centre outwards.
+/// @return Its size.
 template <class Limits>
 int DistanceField<Limits>::SpreadSelection(Candidates& candidates, const Vec3& center_m) noexcept {
   const int wanted = std::min(candidates.size(), Limits::kMaxTrainingSamples);
   std::array<float, Candidates::kCapacity> nearest_squared;
   for (int i = 0; i < candidates.size(); ++i) {
     // Negative distance from the centre: the first pick is the most central sample.
-    nearest_squared[static_cast<std::size_t>(i)] = -(candidates[i].position_m - center_m).squaredNorm();
+    nearest_squared[static_cast<std::size_t>(i)] =
+        -(candidates[i].position_m - center_m).squaredNorm();
   }
   for (int chosen = 0; chosen < wanted; ++chosen) {
     int best = chosen;
     for (int i = chosen + 1; i < candidates.size(); ++i) {
-      if (nearest_squared[static_cast<std::size_t>(i)] > nearest_squared[static_cast<std::size_t>(best)]) best = i;
+      if (nearest_squared[static_cast<std::size_t>(i)] >
+          nearest_squared[static_cast<std::size_t>(best)])
+        best = i;
     }
     std::swap(candidates[chosen], candidates[best]);
-    std::swap(nearest_squared[static_cast<std::size_t>(chosen)], nearest_squared[static_cast<std::size_t>(best)]);
+    std::swap(nearest_squared[static_cast<std::size_t>(chosen)],
+              nearest_squared[static_cast<std::size_t>(best)]);
     for (int i = chosen + 1; i < candidates.size(); ++i) {
-      const float squared = (candidates[i].position_m - candidates[chosen].position_m).squaredNorm();
+      const float squared =
+          (candidates[i].position_m - candidates[chosen].position_m).squaredNorm();
       float& known = nearest_squared[static_cast<std::size_t>(i)];
       known = chosen == 0 ? squared : std::fmin(known, squared);
     }
@@ -102,9 +112,12 @@ void DistanceField<Limits>::TrainCluster(ClusterType& cluster) noexcept {
     GatherCandidates(cluster, false, candidates);
   }
   const int count = SpreadSelection(candidates, cluster.centroid_m);
-  const std::span<const GpTrainingSample> samples(candidates.begin(), static_cast<std::size_t>(count));
-  // Not positive definite only for contradicting duplicates; the cluster then falls back to its plane.
-  if (!Train(samples, cluster.centroid_m, cluster.mean_normal, hyper_, workspace_, cluster.gp)) cluster.gp.Clear();
+  const std::span<const GpTrainingSample> samples(candidates.begin(),
+                                                  static_cast<std::size_t>(count));
+  // Not positive definite only for contradicting duplicates; the cluster then falls back to its
+  // plane.
+  if (!Train(samples, cluster.centroid_m, cluster.mean_normal, hyper_, workspace_, cluster.gp))
+    cluster.gp.Clear();
 }
 
 }  // namespace disflow

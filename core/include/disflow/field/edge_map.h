@@ -9,7 +9,8 @@
 
 namespace disflow {
 
-/// The object's sharp edges, as running averages of the occluding-edge points seen on them. Object frame.
+/// The object's sharp edges, as running averages of the occluding-edge points seen on them. Object
+/// frame.
 template <int kMaxEdges>
 class EdgeMap {
  public:
@@ -33,7 +34,8 @@ class EdgeMap {
     constexpr float kMaxWeight = 20.0F;
     Edge* edge = Find(edges_, point, merge_radius_m);
     if (edge == nullptr) {
-      if (!edges_.push_back({point.position_m, point.direction, point.normal, 1.0F})) ++counters.edges_refused;
+      if (!edges_.push_back({point.position_m, point.direction, point.normal, 1.0F}))
+        ++counters.edges_refused;
       return;
     }
     const float gain = 1.0F / (edge->weight + 1.0F);
@@ -41,14 +43,16 @@ class EdgeMap {
     // Along the edge nothing is known: only the part across it is averaged.
     edge->position_m += gain * (offset - edge->direction * edge->direction.dot(offset));
     const float sign = edge->direction.dot(point.direction) < 0.0F ? -1.0F : 1.0F;
-    edge->direction = (edge->direction + gain * (sign * point.direction - edge->direction)).normalized();
+    edge->direction =
+        (edge->direction + gain * (sign * point.direction - edge->direction)).normalized();
     edge->normal = (edge->normal + gain * (point.normal - edge->normal)).normalized();
     edge->weight = std::fmin(edge->weight + 1.0F, kMaxWeight);
   }
 
  private:
   template <class Edges>
-  [[nodiscard]] static auto Find(Edges& edges, const EdgePoint& point, float radius_m) noexcept -> decltype(edges.begin()) {
+  [[nodiscard]] static auto Find(Edges& edges, const EdgePoint& point, float radius_m) noexcept
+      -> decltype(edges.begin()) {
     decltype(edges.begin()) nearest = nullptr;
     float nearest_squared = radius_m * radius_m;
     for (auto& edge : edges) {

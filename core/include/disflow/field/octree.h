@@ -20,15 +20,16 @@ struct OctreeCell {
   int z = 0;
 };
 
-/// Octree over a cube around the object frame's origin, in a bounded pool of nodes (section IV, "Scalability via Octree").
-/// Leaves are cells of fixed size that head a list of local GPs; the two levels above hold running averages of the samples
-/// below them (facets), which give a coarse surface for far starts.
+/// Octree over a cube around the object frame's origin, in a bounded pool of nodes (section IV,
+/// "Scalability via Octree"). Leaves are cells of fixed size that head a list of local GPs; the two
+/// levels above hold running averages of the samples below them (facets), which give a coarse
+/// surface for far starts.
 template <int kMaxNodes>
 class Octree {
   static_assert(kMaxNodes < kNoHandle);
 
  public:
-  static constexpr int kDepth = 6;                  ///< Levels below the root: 64 cells along each edge.
+  static constexpr int kDepth = 6;  ///< Levels below the root: 64 cells along each edge.
   static constexpr int kCellsPerEdge = 1 << kDepth;
   static constexpr int kFacetsPerNode = 3;
   static constexpr int kCoarseLevels = 2;
@@ -46,7 +47,8 @@ class Octree {
     cell_size_m_ = cell_size_m;
     inverse_cell_size_ = 1.0F / cell_size_m;
     for (int i = 0; i < kMaxNodes; ++i) {
-      nodes_[static_cast<std::size_t>(i)].parent = static_cast<Handle>(i + 1 < kMaxNodes ? i + 1 : kNoHandle);
+      nodes_[static_cast<std::size_t>(i)].parent =
+          static_cast<Handle>(i + 1 < kMaxNodes ? i + 1 : kNoHandle);
     }
     free_head_ = 0;
     used_ = 0;
@@ -60,18 +62,24 @@ class Octree {
   [[nodiscard]] bool CellAt(const Vec3& x_m, Cell& cell) const noexcept {
     const Vec3 scaled = x_m * inverse_cell_size_ + Vec3::Constant(0.5F * kCellsPerEdge);
     // Written so that NaN is outside too.
-    if (!((scaled.array() >= 0.0F).all() && (scaled.array() < static_cast<float>(kCellsPerEdge)).all())) return false;
-    cell = {static_cast<int>(scaled.x()), static_cast<int>(scaled.y()), static_cast<int>(scaled.z())};
+    if (!((scaled.array() >= 0.0F).all() &&
+          (scaled.array() < static_cast<float>(kCellsPerEdge)).all()))
+      return false;
+    cell = {static_cast<int>(scaled.x()), static_cast<int>(scaled.y()),
+            static_cast<int>(scaled.z())};
     return true;
   }
   [[nodiscard]] Vec3 CellMin(const Cell& cell) const noexcept {
-    return (Vec3(static_cast<float>(cell.x), static_cast<float>(cell.y), static_cast<float>(cell.z)) -
+    return (Vec3(static_cast<float>(cell.x), static_cast<float>(cell.y),
+                 static_cast<float>(cell.z)) -
             Vec3::Constant(0.5F * kCellsPerEdge)) *
            cell_size_m_;
   }
 
   /// @return The leaf, or kNoHandle if nothing was ever stored there.
-  [[nodiscard]] Handle FindLeaf(const Cell& cell) const noexcept { return FindAtLevel(cell, kDepth); }
+  [[nodiscard]] Handle FindLeaf(const Cell& cell) const noexcept {
+    return FindAtLevel(cell, kDepth);
+  }
 
   /// The node of a given level (0 = root, kDepth = leaf) that contains a cell.
   [[nodiscard]] Handle FindAtLevel(const Cell& cell, int level) const noexcept {
@@ -116,7 +124,8 @@ class Octree {
     }
   }
 
-  /// Calls visit(cell, leaf) for every existing leaf that meets the box [low, high]; the caller bounds the box.
+  /// Calls visit(cell, leaf) for every existing leaf that meets the box [low, high]; the caller
+  /// bounds the box.
   template <class Visitor>
   void ForEachLeafInBox(const Vec3& low_m, const Vec3& high_m, Visitor&& visit) const noexcept {
     const Cell low = ClampedCell(low_m);
@@ -143,14 +152,15 @@ class Octree {
     return DistanceSquaredToNode(x_m, cell, kDepth);
   }
 
-  /// Branch and bound: calls visit(leaf, bound_squared_m2), roughly nearest leaf first, for all leaves nearer to x than
-  /// the bound, which visit may lower.
+  /// Branch and bound: calls visit(leaf, bound_squared_m2), roughly nearest leaf first, for all
+  /// leaves nearer to x than the bound, which visit may lower.
   template <class Visitor>
   void VisitNearestFirst(const Vec3& x_m, float& bound_squared_m2, Visitor&& visit) const noexcept {
     VisitNearer(root_, 0, Cell{}, x_m, bound_squared_m2, visit);
   }
 
-  /// Adds (weight +1) or removes (-1) a sample's share in the coarse surface of the levels above its leaf.
+  /// Adds (weight +1) or removes (-1) a sample's share in the coarse surface of the levels above
+  /// its leaf.
   void UpdateFacets(const Cell& cell, const Vec3& position_m, const Vec3& normal, float weight,
                     float crease_cos) noexcept {
     for (int up = 1; up <= kCoarseLevels; ++up) {
@@ -166,7 +176,8 @@ class Octree {
   }
 
   /// The best agreeing facet of the coarse node `up` levels above a cell, or null.
-  [[nodiscard]] const Facet* FindFacet(const Cell& cell, int up, const Vec3& normal, float min_cos) const noexcept {
+  [[nodiscard]] const Facet* FindFacet(const Cell& cell, int up, const Vec3& normal,
+                                       float min_cos) const noexcept {
     const Handle node = FindAtLevel(cell, kDepth - up);
     if (node == kNoHandle) return nullptr;
     const Facet* best = nullptr;
@@ -195,13 +206,15 @@ class Octree {
   [[nodiscard]] const Node& at(Handle node) const noexcept { return nodes_[node]; }
 
   [[nodiscard]] static std::size_t Octant(const Cell& cell, int bit) noexcept {
-    return static_cast<std::size_t>(((cell.x >> bit) & 1) | (((cell.y >> bit) & 1) << 1) | (((cell.z >> bit) & 1) << 2));
+    return static_cast<std::size_t>(((cell.x >> bit) & 1) | (((cell.y >> bit) & 1) << 1) |
+                                    (((cell.z >> bit) & 1) << 2));
   }
 
   [[nodiscard]] Cell ClampedCell(const Vec3& x_m) const noexcept {
     const auto clamp = [this](float coordinate_m) {
       const float scaled = coordinate_m * inverse_cell_size_ + 0.5F * kCellsPerEdge;
-      return static_cast<int>(std::fmin(std::fmax(scaled, 0.0F), static_cast<float>(kCellsPerEdge - 1)));
+      return static_cast<int>(
+          std::fmin(std::fmax(scaled, 0.0F), static_cast<float>(kCellsPerEdge - 1)));
     };
     return {clamp(x_m.x()), clamp(x_m.y()), clamp(x_m.z())};
   }
@@ -227,7 +240,8 @@ class Octree {
     return node;
   }
 
-  [[nodiscard]] Facet* SelectFacet(Handle node, const Vec3& normal, float crease_cos, bool may_create) noexcept {
+  [[nodiscard]] Facet* SelectFacet(Handle node, const Vec3& normal, float crease_cos,
+                                   bool may_create) noexcept {
     Facet* unused = nullptr;
     Facet* best = nullptr;
     float best_cos = crease_cos;
@@ -256,21 +270,23 @@ class Octree {
       const Handle child = at(node).child[octant];
       if (child == kNoHandle) continue;
       const auto o = static_cast<int>(octant);
-      VisitBelow(child, level + 1, Cell{2 * cell.x + (o & 1), 2 * cell.y + ((o >> 1) & 1), 2 * cell.z + (o >> 2)},
+      VisitBelow(child, level + 1,
+                 Cell{2 * cell.x + (o & 1), 2 * cell.y + ((o >> 1) & 1), 2 * cell.z + (o >> 2)},
                  visit);
     }
   }
 
   template <class Visitor>
-  void VisitNearer(Handle node, int level, const Cell& cell, const Vec3& x_m, float& bound_squared_m2,
-                   Visitor& visit) const noexcept {
+  void VisitNearer(Handle node, int level, const Cell& cell, const Vec3& x_m,
+                   float& bound_squared_m2, Visitor& visit) const noexcept {
     if (DistanceSquaredToNode(x_m, cell, level) >= bound_squared_m2) return;
     if (level == kDepth) {
       visit(node, bound_squared_m2);
       return;
     }
     const Vec3 center_m = NodeMin(cell, level) + Vec3::Constant(0.5F * NodeSize(level));
-    const unsigned nearest = (x_m.x() >= center_m.x() ? 1U : 0U) | (x_m.y() >= center_m.y() ? 2U : 0U) |
+    const unsigned nearest = (x_m.x() >= center_m.x() ? 1U : 0U) |
+                             (x_m.y() >= center_m.y() ? 2U : 0U) |
                              (x_m.z() >= center_m.z() ? 4U : 0U);
     // The child on x's side, its neighbours across one, two and three faces.
     constexpr std::array<unsigned, 8> kFlips{0, 1, 2, 4, 3, 5, 6, 7};
@@ -279,8 +295,9 @@ class Octree {
       const Handle child = at(node).child[octant];
       if (child == kNoHandle) continue;
       const auto o = static_cast<int>(octant);
-      VisitNearer(child, level + 1, Cell{2 * cell.x + (o & 1), 2 * cell.y + ((o >> 1) & 1), 2 * cell.z + (o >> 2)}, x_m,
-                  bound_squared_m2, visit);
+      VisitNearer(child, level + 1,
+                  Cell{2 * cell.x + (o & 1), 2 * cell.y + ((o >> 1) & 1), 2 * cell.z + (o >> 2)},
+                  x_m, bound_squared_m2, visit);
     }
   }
 
@@ -292,14 +309,17 @@ class Octree {
     const int up = kDepth - level;
     return CellMin(Cell{cell.x << up, cell.y << up, cell.z << up});
   }
-  [[nodiscard]] float DistanceSquaredToNode(const Vec3& x_m, const Cell& cell, int level) const noexcept {
+  [[nodiscard]] float DistanceSquaredToNode(const Vec3& x_m, const Cell& cell,
+                                            int level) const noexcept {
     const Vec3 offset = x_m - NodeMin(cell, level);
     const Vec3 inside = offset.cwiseMax(0.0F).cwiseMin(NodeSize(level));
     return (offset - inside).squaredNorm();
   }
 
   std::array<Node, static_cast<std::size_t>(kMaxNodes)> nodes_;
-  std::array<std::array<Facet, static_cast<std::size_t>(kFacetsPerNode)>, static_cast<std::size_t>(kMaxNodes)> facets_;
+  std::array<std::array<Facet, static_cast<std::size_t>(kFacetsPerNode)>,
+             static_cast<std::size_t>(kMaxNodes)>
+      facets_;
   float cell_size_m_ = 0.0F;
   float inverse_cell_size_ = 0.0F;
   Handle root_ = 0;

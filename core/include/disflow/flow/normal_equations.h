@@ -9,7 +9,8 @@
 
 namespace disflow {
 
-/// The linearised problem of one closed-form step (section V-C): H = sum w J^T J, b = sum w J^T r, solved for H xi = -b.
+/// The linearised problem of one closed-form step (section V-C): H = sum w J^T J, b = sum w J^T r,
+/// solved for H xi = -b.
 struct NormalEquations {
   Mat6 h = Mat6::Zero();
   Vec6 b = Vec6::Zero();
@@ -31,7 +32,8 @@ struct NormalEquations {
   /// The temporal regulariser |xi - Ad v|^2_W (section V-D), as deviation from the predicted pose.
   void AddPrior(const Vec6& deviation, float std_m, float std_rad) noexcept {
     Vec6 information;
-    information << Vec3::Constant(1.0F / (std_m * std_m)), Vec3::Constant(1.0F / (std_rad * std_rad));
+    information << Vec3::Constant(1.0F / (std_m * std_m)),
+        Vec3::Constant(1.0F / (std_rad * std_rad));
     h.diagonal() += information;
     b += information.cwiseProduct(deviation);
   }

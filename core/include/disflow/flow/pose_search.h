@@ -7,8 +7,8 @@
 
 namespace disflow {
 
-/// Fast motion: when the predicted pose explains the frame badly, a bounded set of other starts is tried, each for a few
-/// steps, and the best explained one wins.
+/// Fast motion: when the predicted pose explains the frame badly, a bounded set of other starts is
+/// tried, each for a few steps, and the best explained one wins.
 template <class Limits>
 class PoseSearch {
  public:
@@ -23,15 +23,20 @@ class PoseSearch {
 
   /// @param T_predicted Pose by constant velocity.
   /// @param T_previous Pose of the previous frame.
-  /// @param velocity_known false: the object was just started, the prediction is no more than a guess.
-  [[nodiscard]] static Start Find(const RegistrationType& registration, const Field& field, const Model& edges,
-                                  const RegistrationConfig& config, const PoseObjectFromCamera& T_predicted,
-                                  const PoseObjectFromCamera& T_previous, bool velocity_known) noexcept {
+  /// @param velocity_known false: the object was just started, the prediction is no more than a
+  /// guess.
+  [[nodiscard]] static Start Find(const RegistrationType& registration, const Field& field,
+                                  const Model& edges, const RegistrationConfig& config,
+                                  const PoseObjectFromCamera& T_predicted,
+                                  const PoseObjectFromCamera& T_previous,
+                                  bool velocity_known) noexcept {
     Start best{T_predicted, 1};
-    if (velocity_known && registration.Score(field, config, T_predicted) >= config.hypothesis_score) return best;
-    const std::array<PoseObjectFromCamera, 5> starts{T_predicted, T_previous, Recentred(registration, field, T_predicted),
-                                                     Recentred(registration, field, T_previous),
-                                                     HalfWay(registration.center_c(), T_previous, T_predicted)};
+    if (velocity_known && registration.Score(field, config, T_predicted) >= config.hypothesis_score)
+      return best;
+    const std::array<PoseObjectFromCamera, 5> starts{
+        T_predicted, T_previous, Recentred(registration, field, T_predicted),
+        Recentred(registration, field, T_previous),
+        HalfWay(registration.center_c(), T_previous, T_predicted)};
     float best_score = -1.0F;
     for (const PoseObjectFromCamera& T_start : starts) {
       const auto aligned =
@@ -51,8 +56,10 @@ class PoseSearch {
  private:
   static constexpr float kEdgeShare = 0.3F;
 
-  /// The same rotation, with the observed centroid put onto the centroid of the model's part that faces the camera.
-  [[nodiscard]] static PoseObjectFromCamera Recentred(const RegistrationType& registration, const Field& field,
+  /// The same rotation, with the observed centroid put onto the centroid of the model's part that
+  /// faces the camera.
+  [[nodiscard]] static PoseObjectFromCamera Recentred(const RegistrationType& registration,
+                                                      const Field& field,
                                                       const PoseObjectFromCamera& T_oc) noexcept {
     Vec3 sum = Vec3::Zero();
     float count = 0.0F;
@@ -67,7 +74,8 @@ class PoseSearch {
     return {T_oc.rotation(), Vec3(T_oc.translation() + shift)};
   }
 
-  [[nodiscard]] static PoseObjectFromCamera HalfWay(const Vec3& center_c, const PoseObjectFromCamera& a,
+  [[nodiscard]] static PoseObjectFromCamera HalfWay(const Vec3& center_c,
+                                                    const PoseObjectFromCamera& a,
                                                     const PoseObjectFromCamera& b) noexcept {
     const Vec3 turn = 0.5F * LogSo3(Mat3(b.rotation() * a.rotation().transpose()));
     const Mat3 rotation = ExpSo3(turn) * a.rotation();

@@ -14,8 +14,9 @@ namespace disflow {
 
 /// Registers observed samples to the distance field (sections V-B to V-D).
 ///
-/// Additions to the paper: weights 1/sigma^2 with a robust kernel whose width shrinks from step to step (graduated
-/// non-convexity), gates on normal agreement and matching distance, rotation about the observed centroid, occluding edges.
+/// Additions to the paper: weights 1/sigma^2 with a robust kernel whose width shrinks from step to
+/// step (graduated non-convexity), gates on normal agreement and matching distance, rotation about
+/// the observed centroid, occluding edges.
 template <class Limits>
 class Registration {
  public:
@@ -27,8 +28,9 @@ class Registration {
   struct Result {
     bool solved = false;
     PoseObjectFromCamera T_oc;
-    Mat6 information = Mat6::Zero();     ///< H at the end: of (translation, rotation) about center_m, object frame.
-    Vec3 center_m = Vec3::Zero();        ///< Centre of rotation, object frame.
+    Mat6 information =
+        Mat6::Zero();  ///< H at the end: of (translation, rotation) about center_m, object frame.
+    Vec3 center_m = Vec3::Zero();  ///< Centre of rotation, object frame.
     int iterations = 0;
     int inliers = 0;
     int edge_inliers = 0;
@@ -45,7 +47,8 @@ class Registration {
     const int wanted = std::min(samples.size(), Limits::kMaxRegistrationPoints);
     center_c_.setZero();
     for (int i = 0; i < wanted; ++i) {
-      const SurfaceSample& sample = samples[static_cast<int>(static_cast<std::int64_t>(i) * samples.size() / wanted)];
+      const SurfaceSample& sample =
+          samples[static_cast<int>(static_cast<std::int64_t>(i) * samples.size() / wanted)];
       (void)samples_.push_back(sample);
       center_c_ += sample.position_m;
     }
@@ -55,7 +58,8 @@ class Registration {
   [[nodiscard]] const Vec3& center_c() const noexcept { return center_c_; }
   [[nodiscard]] int size() const noexcept { return samples_.size(); }
 
-  /// Share of the observed points that the model explains under a pose, 0..1. Unmatched points count 0.
+  /// Share of the observed points that the model explains under a pose, 0..1. Unmatched points
+  /// count 0.
   [[nodiscard]] float Score(const Field& field, const RegistrationConfig& config,
                             const PoseObjectFromCamera& T_oc) const noexcept {
     if (samples_.empty()) return 0.0F;
@@ -73,8 +77,8 @@ class Registration {
     return sum / static_cast<float>(wanted);
   }
 
-  /// Share of the observed occluding edges that lie on edges of the model, 0..1. Tells apart poses between which the
-  /// surface could slide.
+  /// Share of the observed occluding edges that lie on edges of the model, 0..1. Tells apart poses
+  /// between which the surface could slide.
   [[nodiscard]] float EdgeScore(const Model& model_edges, const RegistrationConfig& config,
                                 const PoseObjectFromCamera& T_oc) const noexcept {
     if (edges_->empty()) return 0.0F;
@@ -88,14 +92,16 @@ class Registration {
 
   /// Iterates closed-form steps from T_start.
   /// @param T_predicted Centre of the temporal regulariser.
-  [[nodiscard]] Result Align(const Field& field, const Model& model_edges, const RegistrationConfig& config,
-                             const PoseObjectFromCamera& T_start, const PoseObjectFromCamera& T_predicted,
+  [[nodiscard]] Result Align(const Field& field, const Model& model_edges,
+                             const RegistrationConfig& config, const PoseObjectFromCamera& T_start,
+                             const PoseObjectFromCamera& T_predicted,
                              int iterations) const noexcept {
     Result result;
     result.T_oc = T_start;
     float scale_m = config.robust_scale_start_m;
     for (int i = 0; i < iterations; ++i, scale_m *= 0.5F) {
-      const NormalEquations equations = Linearise(field, model_edges, config, T_predicted, scale_m, result);
+      const NormalEquations equations =
+          Linearise(field, model_edges, config, T_predicted, scale_m, result);
       Vec6 xi;
       if (equations.inliers < kFewestInliers || !equations.Solve(config.damping, xi)) {
         result.solved = false;
@@ -119,27 +125,33 @@ class Registration {
   static constexpr float kConverged_m = 1e-5F;
   static constexpr float kConverged_rad = 1e-4F;
 
-  /// T <- exp(xi) T, with the rotation about a centre instead of the origin: better conditioned in float.
+  /// T <- exp(xi) T, with the rotation about a centre instead of the origin: better conditioned in
+  /// float.
   [[nodiscard]] static PoseObjectFromCamera Step(const Vec6& xi, const Vec3& center_m,
                                                  const PoseObjectFromCamera& T_oc) noexcept {
     const Vec3 theta = xi.tail<3>();
     const Mat3 turn = ExpSo3(theta);
-    return PoseObjectFromCamera(Mat3(turn * T_oc.rotation()),
-                                Vec3(turn * (T_oc.translation() - center_m) + center_m + xi.head<3>()))
+    return PoseObjectFromCamera(
+               Mat3(turn * T_oc.rotation()),
+               Vec3(turn * (T_oc.translation() - center_m) + center_m + xi.head<3>()))
         .Normalized();
   }
 
   [[nodiscard]] NormalEquations Linearise(const Field& field, const Model& model_edges,
-                                          const RegistrationConfig& config, const PoseObjectFromCamera& T_predicted,
-                                          float scale_m, Result& result) const noexcept {
+                                          const RegistrationConfig& config,
+                                          const PoseObjectFromCamera& T_predicted, float scale_m,
+                                          Result& result) const noexcept {
     NormalEquations equations;
     result.center_m = result.T_oc * center_c_;
     result.unmatched = result.truncated = result.normal_mismatch = 0;
-    for (const SurfaceSample& sample : samples_) AddSample(field, config, sample, scale_m, result, equations);
-    for (const EdgePoint& edge : *edges_) AddEdge(model_edges, config, edge, scale_m, result, equations);
+    for (const SurfaceSample& sample : samples_)
+      AddSample(field, config, sample, scale_m, result, equations);
+    for (const EdgePoint& edge : *edges_)
+      AddEdge(model_edges, config, edge, scale_m, result, equations);
     result.inliers = equations.inliers;
     result.edge_inliers = equations.edge_inliers;
-    result.rms_m = std::sqrt(equations.weighted_square_sum / std::fmax(equations.weight_sum, 1e-9F));
+    result.rms_m =
+        std::sqrt(equations.weighted_square_sum / std::fmax(equations.weight_sum, 1e-9F));
 
     Vec6 deviation;  // from the predicted pose, about the same centre
     deviation.head<3>() = result.center_m - T_predicted * center_c_;
@@ -148,8 +160,8 @@ class Registration {
     return equations;
   }
 
-  void AddSample(const Field& field, const RegistrationConfig& config, const SurfaceSample& sample, float scale_m,
-                 Result& result, NormalEquations& equations) const noexcept {
+  void AddSample(const Field& field, const RegistrationConfig& config, const SurfaceSample& sample,
+                 float scale_m, Result& result, NormalEquations& equations) const noexcept {
     const Vec3 x_o = result.T_oc * sample.position_m;
     const Vec3 n_o = result.T_oc.rotation() * sample.normal;
     auto match = field.FindMatch(x_o, n_o, config.match_radius_m + scale_m, config.min_normal_cos);
@@ -174,11 +186,13 @@ class Registration {
       ++result.unmatched;
       return;
     }
-    // d / |grad d| is the distance to first order; |grad d| < 1 tells how little is known: the gradient weighting.
+    // d / |grad d| is the distance to first order; |grad d| < 1 tells how little is known: the
+    // gradient weighting.
     const float residual_m = match.distance_m / norm;
     const float variance_m2 = sample.variance_m2 + match.variance_m2;
     const float sigma_m = std::sqrt(variance_m2);
-    const float robust = GemanMcClure(residual_m, std::fmax(scale_m, config.robust_scale_sigmas * sigma_m));
+    const float robust =
+        GemanMcClure(residual_m, std::fmax(scale_m, config.robust_scale_sigmas * sigma_m));
     const float weight = robust * std::fmin(norm, 1.0F) / variance_m2;
     equations.Add(x_o - result.center_m, match.gradient / norm, residual_m, weight);
     equations.weighted_square_sum += robust * residual_m * residual_m;
@@ -194,10 +208,14 @@ class Registration {
     float sigma_m = 0.0F;
   };
 
-  [[nodiscard]] static EdgeResidual FindEdge(const Model& model_edges, const RegistrationConfig& config,
-                                             const EdgePoint& point, const PoseObjectFromCamera& T_oc, float radius_m) noexcept {
+  [[nodiscard]] static EdgeResidual FindEdge(const Model& model_edges,
+                                             const RegistrationConfig& config,
+                                             const EdgePoint& point,
+                                             const PoseObjectFromCamera& T_oc,
+                                             float radius_m) noexcept {
     const Mat3& r = T_oc.rotation();
-    const EdgePoint moved{T_oc * point.position_m, r * point.direction, r * point.normal, r * point.ray, point.pixel_m};
+    const EdgePoint moved{T_oc * point.position_m, r * point.direction, r * point.normal,
+                          r * point.ray, point.pixel_m};
     EdgeResidual result;
     const auto* edge = model_edges.FindNearest(moved, radius_m);
     if (edge == nullptr) return result;
@@ -213,12 +231,14 @@ class Registration {
     return result;
   }
 
-  static void AddEdge(const Model& model_edges, const RegistrationConfig& config, const EdgePoint& point, float scale_m,
-                      const Result& result, NormalEquations& equations) noexcept {
-    const EdgeResidual edge = FindEdge(model_edges, config, point, result.T_oc, config.match_radius_m + scale_m);
+  static void AddEdge(const Model& model_edges, const RegistrationConfig& config,
+                      const EdgePoint& point, float scale_m, const Result& result,
+                      NormalEquations& equations) noexcept {
+    const EdgeResidual edge =
+        FindEdge(model_edges, config, point, result.T_oc, config.match_radius_m + scale_m);
     if (!edge.found) return;
-    const float robust =
-        GemanMcClure(edge.residual_m, std::fmax(scale_m, config.robust_scale_sigmas * edge.sigma_m));
+    const float robust = GemanMcClure(
+        edge.residual_m, std::fmax(scale_m, config.robust_scale_sigmas * edge.sigma_m));
     equations.Add(edge.position_m - result.center_m, edge.gradient, edge.residual_m,
                   robust / (edge.sigma_m * edge.sigma_m));
     if (robust > 0.25F) ++equations.edge_inliers;

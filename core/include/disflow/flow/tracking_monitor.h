@@ -6,15 +6,16 @@
 
 namespace disflow {
 
-/// Judges every frame: initialising, tracking, degraded, lost, recovered, and a quality from 0 to 100.
+/// Judges every frame: initialising, tracking, degraded, lost, recovered, and a quality from 0 to
+/// 100.
 class TrackingMonitor {
  public:
   /// What one frame offered as evidence.
   struct Evidence {
     bool registered = false;
-    float score = 0.0F;     ///< Share of observed samples that the model explains.
+    float score = 0.0F;  ///< Share of observed samples that the model explains.
     int inliers = 0;
-    int points = 0;         ///< Samples that were registered.
+    int points = 0;  ///< Samples that were registered.
     float position_std_m = 0.0F;
     float rotation_std_rad = 0.0F;
   };

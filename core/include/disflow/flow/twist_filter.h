@@ -9,11 +9,12 @@
 
 namespace disflow {
 
-/// Kalman filter with constant acceleration, driven by registered poses; yields velocity at the frame's capture time.
-/// A finite difference of poses would lag by half a frame. Bar-Shalom et al., "Estimation with Applications to Tracking
-/// and Navigation", section 6.2.3 (white-noise jerk).
+/// Kalman filter with constant acceleration, driven by registered poses; yields velocity at the
+/// frame's capture time. A finite difference of poses would lag by half a frame. Bar-Shalom et al.,
+/// "Estimation with Applications to Tracking and Navigation", section 6.2.3 (white-noise jerk).
 ///
-/// State in camera axes: pose (position of the object's origin, rotation), twist, acceleration; six components each.
+/// State in camera axes: pose (position of the object's origin, rotation), twist, acceleration; six
+/// components each.
 class TwistFilter {
  public:
   void Start(const TwistFilterConfig& config, StampNs stamp_ns, const PoseCameraFromObject& T_co,

@@ -7,8 +7,8 @@
 
 namespace disflow {
 
-/// Solves A x = b for a symmetric positive definite 6x6 matrix. Right-hand sides are taken one by one: Eigen's solve for
-/// several at once refers to malloc even at fixed sizes.
+/// Solves A x = b for a symmetric positive definite 6x6 matrix. Right-hand sides are taken one by
+/// one: Eigen's solve for several at once refers to malloc even at fixed sizes.
 class SymmetricSolver6 {
  public:
   explicit SymmetricSolver6(const Mat6& a) noexcept : ldlt_(a) {}

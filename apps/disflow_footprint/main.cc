@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file
+/// Prints what every part of a tracker costs in bytes, per profile: the table of docs/memory.md.
+
+#include <cstdio>
+
+#include "disflow/surface_extractor.h"
+#include "disflow/tracker.h"
+
+namespace {
+
+void PrintRow(const char* part, std::size_t micro, std::size_t edge, std::size_t dense) {
+  std::printf("| %-44s | %9zu | %9zu | %9zu |\n", part, micro, edge, dense);
+}
+
+template <template <class> class Part>
+void PrintPart(const char* part) {
+  using namespace disflow;
+  PrintRow(part, Part<profiles::Micro>::kBytes, Part<profiles::Edge>::kBytes,
+           Part<profiles::Dense>::kBytes);
+}
+
+template <class L>
+struct Masks {
+  static constexpr std::size_t kBytes = 2 * sizeof(typename disflow::Segmenter<L>::Mask);
+};
+template <class L>
+struct Segmenter {
+  static constexpr std::size_t kBytes = sizeof(disflow::Segmenter<L>);
+};
+template <class L>
+struct Sampler {
+  static constexpr std::size_t kBytes =
+      sizeof(disflow::SurfaceSampler<L>) + sizeof(typename disflow::SurfaceSampler<L>::Samples);
+};
+template <class L>
+struct Edges {
+  static constexpr std::size_t kBytes =
+      sizeof(typename disflow::EdgeSampler<L>::Edges) + sizeof(disflow::EdgeMap<L::kMaxModelEdges>);
+};
+template <class L>
+struct Octree {
+  static constexpr std::size_t kBytes = sizeof(typename disflow::ClusterStore<L>::Tree);
+};
+template <class L>
+struct Clusters {
+  static constexpr std::size_t kBytes = sizeof(typename disflow::ClusterStore<L>::ClusterType) *
+                                        static_cast<std::size_t>(L::kMaxClusters);
+};
+template <class L>
+struct Cluster {
+  static constexpr std::size_t kBytes = sizeof(typename disflow::ClusterStore<L>::ClusterType);
+};
+template <class L>
+struct Gp {
+  static constexpr std::size_t kBytes = sizeof(disflow::GpWorkspace<L::kMaxTrainingSamples>);
+};
+template <class L>
+struct Registration {
+  static constexpr std::size_t kBytes = sizeof(disflow::Registration<L>);
+};
+template <class L>
+struct Whole {
+  static constexpr std::size_t kBytes = sizeof(disflow::Tracker<L>);
+};
+template <class L>
+struct Surface {
+  static constexpr std::size_t kBytes = sizeof(disflow::SurfaceWorkspace<L>);
+};
+
+}  // namespace
+
+int main() {
+  std::printf("| %-44s | %9s | %9s | %9s |\n", "bytes", "Micro", "Edge", "Dense");
+  std::printf("|---|---:|---:|---:|\n");
+  PrintPart<Masks>("object masks (2)");
+  PrintPart<Segmenter>("segmentation without a mask: pixel runs");
+  PrintPart<Sampler>("pixel blocks, planes and surface samples");
+  PrintPart<Edges>("occluding edges: frame and model");
+  PrintPart<Octree>("octree");
+  PrintPart<Clusters>("clusters with their local GPs");
+  PrintPart<Gp>("GP training workspace");
+  PrintPart<Registration>("registration");
+  PrintPart<Whole>("**Tracker, all of the above and the rest**");
+  PrintPart<Cluster>("one cluster (is in the above)");
+  PrintPart<Surface>("workspace for surface extraction (optional)");
+  return 0;
+}
