@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The smallest program that uses the library: depth images in memory in, pose and speed out.
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <vector>
+
+#include "disflow/tracker.h"
+
+namespace {
+
+constexpr int kWidth = 160;
+constexpr int kHeight = 120;
+
+/// The corner of a cube that points at the camera and moves sideways, in 16-bit millimetres;
+/// replace it by your camera.
+void TakeImage(double time_s, const disflow::PinholeCamera& camera,
+               std::vector<std::uint16_t>& depth_mm) {
+  const disflow::Vec3 corner(static_cast<float>(0.1 * time_s), 0.0F, 0.55F);
+  const disflow::Vec3 faces[] = {{0.8F, 0.0F, -0.6F}, {-0.4F, 0.7F, -0.6F}, {-0.4F, -0.7F, -0.6F}};
+  for (int v = 0; v < kHeight; ++v) {
+    for (int u = 0; u < kWidth; ++u) {
+      const disflow::Vec3 ray = camera.Ray(static_cast<float>(u), static_cast<float>(v));
+      float depth_m = 0.0F;
+      for (const disflow::Vec3& normal : faces)
+        depth_m = std::fmax(depth_m, normal.dot(corner) / normal.dot(ray));
+      if (depth_m > corner.z() + 0.08F) depth_m = 0.0F;
+      depth_mm[static_cast<std::size_t>(v * kWidth + u)] =
+          static_cast<std::uint16_t>(1000.0F * depth_m + 0.5F);
+    }
+  }
+}
+
+}  // namespace
+
+int main() {
+  static disflow::Tracker<disflow::profiles::Edge>
+      tracker;  // all memory that will ever be used, in .bss
+  std::vector<std::uint16_t> depth_mm(kWidth * kHeight);
+  disflow::DepthFrame frame;
+  frame.depth = {depth_mm.data(), kWidth, kHeight, kWidth * 2, disflow::DepthFormat::kUint16,
+                 0.001F};
+  frame.camera = {200.0F, 200.0F, 80.0F, 60.0F};
+  disflow::Estimate estimate;
+  for (int i = 0; i < 30; ++i) {
+    TakeImage(i / 30.0, frame.camera, depth_mm);
+    frame.stamp_ns = 1 + i * 33'333'333LL;
+    if (tracker.Process(frame, estimate) != disflow::Status::kOk) {
+      std::fprintf(stderr, "frame %d: %s\n", i, disflow::Describe(estimate.status));
+      return 1;
+    }
+  }
+  const disflow::Vec3& position_m = estimate.T_co.translation();
+  std::printf("position %.3f %.3f %.3f m, speed %.3f m/s, %s\n",
+              static_cast<double>(position_m.x()), static_cast<double>(position_m.y()),
+              static_cast<double>(position_m.z()),
+              static_cast<double>(estimate.twist.linear_mps.norm()), disflow::Name(estimate.state));
+  const float speed_mps = estimate.twist.linear_mps.x();
+  return speed_mps > 0.08F && speed_mps < 0.12F ? 0 : 1;
+}
