@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "console.h"
+
+#include <unistd.h>
+
+#include <cstdio>
+
+namespace disflow::apps {
+namespace {
+
+constexpr std::int64_t kPaintInterval_ns = 100'000'000;
+constexpr double kDegreesPerRadian = 57.29577951308232;
+// Without automatic line wrap a narrow terminal cuts the line instead of scrolling.
+constexpr const char* kBeginLine = "\r\033[?7l";
+constexpr const char* kEndLine = "\033[K\033[?7h";
+
+const char* Colour(TrackingState state) noexcept {
+  switch (state) {
+    case TrackingState::kInitialising:
+      return "\033[36m";  // cyan
+    case TrackingState::kTracking:
+      return "\033[32m";  // green
+    case TrackingState::kDegraded:
+      return "\033[33m";  // yellow
+    case TrackingState::kLost:
+      return "\033[31m";  // red
+    case TrackingState::kRecovered:
+      return "\033[34m";  // blue
+  }
+  return "";
+}
+
+}  // namespace
+
+Console::Console(bool live_line) noexcept : live_line_(live_line && ::isatty(STDERR_FILENO) != 0) {}
+
+void Console::Say(const std::string& message) noexcept {
+  ClearLine();
+  (void)std::fprintf(stderr, "disflow_track: %s\n", message.c_str());
+}
+
+void Console::Show(const FrameResult& result, std::int64_t now_ns) noexcept {
+  if (!live_line_) return;
+  if (painted_ns_ == 0) painted_ns_ = now_ns;
+  ++frames_;
+  total_ns_ += result.total_ns;
+  for (std::size_t i = 0; i < stage_ns_.size(); ++i) stage_ns_[i] += result.estimate.stage_ns[i];
+  if (now_ns - painted_ns_ < kPaintInterval_ns) return;
+  Paint(result, static_cast<double>(now_ns - painted_ns_) * 1e-9);
+  painted_ns_ = now_ns;
+  frames_ = 0;
+  total_ns_ = 0;
+  stage_ns_.fill(0);
+}
+
+void Console::ClearLine() noexcept {
+  if (line_shown_) (void)std::fputs("\r\033[K", stderr);
+  line_shown_ = false;
+}
+
+void Console::Paint(const FrameResult& result, double seconds) noexcept {
+  const Estimate& estimate = result.estimate;
+  const auto mean_ms = [this](std::int64_t sum_ns) {
+    return static_cast<double>(sum_ns) * 1e-6 / frames_;
+  };
+  (void)std::fprintf(
+      stderr, "%sframe %lld  %.1f/s  %s%s\033[0m  quality %d  %.3f m/s  %.1f deg/s  %.2f ms (",
+      kBeginLine, static_cast<long long>(result.frame), frames_ / seconds, Colour(estimate.state),
+      Name(estimate.state), estimate.quality, static_cast<double>(estimate.twist.linear_mps.norm()),
+      static_cast<double>(estimate.twist.angular_rps.norm()) * kDegreesPerRadian,
+      mean_ms(total_ns_));
+  for (std::size_t i = 0; i < stage_ns_.size(); ++i) {
+    (void)std::fprintf(stderr, "%s%s %.2f", i > 0 ? ", " : "", Name(static_cast<Stage>(i)),
+                       mean_ms(stage_ns_[i]));
+  }
+  (void)std::fprintf(stderr, ")%s", kEndLine);
+  (void)std::fflush(stderr);
+  line_shown_ = true;
+}
+
+}  // namespace disflow::apps

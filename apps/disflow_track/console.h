@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "frame_result.h"
+
+namespace disflow::apps {
+
+/// Messages, and on a terminal one line that always shows the latest state; both on stderr.
+class Console {
+ public:
+  /// @param live_line Show the line if stderr is a terminal.
+  explicit Console(bool live_line) noexcept;
+  Console(const Console&) = delete;
+  Console& operator=(const Console&) = delete;
+  ~Console() { ClearLine(); }
+
+  /// One line with the program's name ahead.
+  void Say(const std::string& message) noexcept;
+  /// Shows the frame, if the last one was shown a while ago.
+  void Show(const FrameResult& result, std::int64_t now_ns) noexcept;
+  void ClearLine() noexcept;
+
+ private:
+  void Paint(const FrameResult& result, double seconds) noexcept;
+
+  bool live_line_;
+  bool line_shown_ = false;
+  // Since the line was painted.
+  std::int64_t painted_ns_ = 0;
+  int frames_ = 0;
+  std::int64_t total_ns_ = 0;
+  std::array<std::int64_t, kStageCount> stage_ns_{};
+};
+
+}  // namespace disflow::apps

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+#include "disflow/estimate.h"
+
+namespace disflow::apps {
+
+/// What one input frame gave, for all outputs.
+struct FrameResult {
+  std::int64_t frame = 0;  ///< Position in the input, from 0.
+  Estimate estimate;
+  Counters totals;
+  std::int64_t total_ns = 0;         ///< Whole time in the tracker, without reading the frame.
+  std::uint32_t dropped_frames = 0;  ///< Lost before they reached the tracker, so far.
+};
+
+}  // namespace disflow::apps

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cstdio>
+#include <exception>
+
+#include "exit_status.h"
+#include "options.h"
+#include "run.h"
+#include "settings.h"
+#include "stop_signal.h"
+
+namespace disflow::apps {
+namespace {
+
+ExitStatus Print(const std::string& text) {
+  const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
+  if (!written || std::fflush(stdout) != 0) {
+    throw Failure(kOutputFailed, "standard output cannot be written");
+  }
+  return kDone;
+}
+
+ExitStatus Main(int argc, char** argv) {
+  bool exit_now = false;
+  const Options options = ParseCommandLine(argc, argv, exit_now);
+  if (exit_now) return kDone;
+  if (options.print_settings_table) return Print(FormatSettingsPage());
+  if (options.print_config) return Print(FormatSettings(options.config));
+  InstallStopSignals();
+  return Run(options);
+}
+
+}  // namespace
+}  // namespace disflow::apps
+
+int main(int argc, char** argv) {
+  try {
+    return disflow::apps::Main(argc, argv);
+  } catch (const disflow::apps::Failure& failure) {
+    std::fprintf(stderr, "disflow_track: %s\n", failure.what());
+    return failure.status();
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "disflow_track: %s\n", error.what());
+    return disflow::apps::kInputFailed;
+  }
+}

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "disflow/config.h"
+
+namespace disflow::apps {
+
+enum class ProfileName : std::uint8_t { kMicro, kEdge, kDense };
+/// How fast frames are taken; a live sensor sets its own pace.
+enum class Rate : std::uint8_t { kMax, kRealtime };
+
+/// The command line, checked.
+struct Options {
+  std::string sensor;
+  std::vector<std::string> links;
+  std::string csv;
+  std::string mesh;
+  std::string record;
+  Config config;  ///< Defaults, then the file, then --set.
+  ProfileName profile = ProfileName::kEdge;
+  Rate rate = Rate::kMax;
+  std::int64_t frames = 0;  ///< At most; 0 = all.
+  std::uint8_t object_index = 0;
+  bool headless = false;
+  bool timing = true;  ///< false: time columns are written as 0.
+
+  bool print_config = false;
+  bool print_settings_table = false;
+};
+
+/// Reads the command line; answers --help and --version itself.
+/// @param exit_now Set if the program has nothing left to do but to end with status 0.
+/// @throws Failure kWrongUsage.
+[[nodiscard]] Options ParseCommandLine(int argc, char** argv, bool& exit_now);
+
+}  // namespace disflow::apps

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "console.h"
+#include "disflow/hal/depth_sensor.h"
+#include "frame_result.h"
+#include "options.h"
+#include "output_file.h"
+#include "recording.h"
+#include "surface_mesh.h"
+#include "telemetry_output.h"
+#include "trajectory_csv.h"
+
+namespace disflow::apps {
+
+/// Everything that a run writes and sends. An output that fails while running is said once; the
+/// others go on.
+class Outputs {
+ public:
+  /// Opens all that was asked for, so that a run never ends with nowhere to put its result.
+  /// @throws Failure kWrongUsage, kOutputFailed; files that existed are then unchanged.
+  Outputs(const Options& options, const hal::DepthSensor& sensor, Console& console);
+
+  /// @param frame The input frame; null if it could not be read.
+  void Deliver(const FrameResult& result, const DepthFrame* frame, std::int64_t age_ns,
+               std::int64_t now_ns);
+  void KeepAlive(std::int64_t now_ns) noexcept { telemetry_.KeepAlive(now_ns); }
+
+  [[nodiscard]] bool wants_mesh() const noexcept { return mesh_.has_value(); }
+  void WriteMesh(const SurfaceMesh& mesh);
+
+  /// Closes all. @return false if something that was asked for is not complete.
+  [[nodiscard]] bool Finish();
+  /// @return One line per output, after Finish().
+  [[nodiscard]] const std::vector<std::string>& written() const noexcept { return written_; }
+
+ private:
+  void Fail(const std::string& message);
+
+  Console& console_;
+  TelemetryOutput telemetry_;
+  std::optional<AtomicFile> mesh_;
+  std::optional<Recording> recording_;
+  std::optional<TrajectoryCsv> csv_;
+  std::string mesh_path_;
+  std::vector<std::string> written_;
+  bool complete_ = true;
+};
+
+}  // namespace disflow::apps

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <toml++/toml.h>
+
+#include <charconv>
+#include <cmath>
+#include <sstream>
+#include <type_traits>
+
+#include "disflow/config_fields.h"
+#include "exit_status.h"
+#include "settings.h"
+
+namespace disflow::apps {
+namespace {
+
+struct Number {
+  double value = 0.0;
+  bool is_integer = false;
+  std::string text;  ///< As the person wrote it.
+};
+
+[[noreturn]] void Refuse(const std::string& where, const std::string& text) {
+  throw Failure(kWrongUsage, where + text);
+}
+
+std::string Compact(double value) {
+  char text[32];
+  (void)std::snprintf(text, sizeof(text), "%.9g", value);
+  return text;
+}
+
+/// @param where Ahead of every message, e.g. "run.toml:12: ".
+void Assign(const std::string& where, std::string_view name, const Number& number, Config& config) {
+  bool found = false;
+  VisitFields(config, [&](const auto& field) {
+    if (name != field.name) return;
+    found = true;
+    using Value = std::remove_reference_t<decltype(field.value)>;
+    const std::string range =
+        "allowed: " + Compact(field.min) + " to " + Compact(field.max) + " " + field.unit;
+    if (std::is_integral_v<Value> && !number.is_integer) {
+      Refuse(where, std::string(name) + " = " + number.text + " is not a whole number; " + range);
+    }
+    // Written so that NaN is refused too.
+    if (!(number.value >= field.min && number.value <= field.max)) {
+      Refuse(where, std::string(name) + " = " + number.text + " is out of range; " + range);
+    }
+    field.value = static_cast<Value>(number.value);
+  });
+  if (!found) {
+    Refuse(where,
+           "there is no setting " + std::string(name) + "; disflow_track --print-config lists all");
+  }
+}
+
+void AssignNode(const std::string& file, const std::string& name, const toml::node& node,
+                Config& config) {
+  const std::string where = file + ":" + std::to_string(node.source().begin.line) + ": ";
+  std::ostringstream text;
+  if (const auto* integer = node.as_integer()) {
+    text << integer->get();
+    Assign(where, name, {static_cast<double>(integer->get()), true, text.str()}, config);
+  } else if (const auto* floating = node.as_floating_point()) {
+    text << floating->get();
+    Assign(where, name, {floating->get(), false, text.str()}, config);
+  } else {
+    text << node.type();
+    Refuse(where, name + " is a " + text.str() + ", a number is needed");
+  }
+}
+
+}  // namespace
+
+void LoadSettings(const std::string& file, Config& config) {
+  toml::table root;
+  try {
+    root = toml::parse_file(file);
+  } catch (const toml::parse_error& error) {
+    const auto line = error.source().begin.line;
+    const std::string at = line > 0 ? ":" + std::to_string(line) : "";
+    Refuse(file + at + ": ", std::string(error.description()));
+  }
+  for (const auto& [section, node] : root) {
+    const toml::table* const table = node.as_table();
+    if (table == nullptr) {
+      AssignNode(file, std::string(section.str()), node, config);
+      continue;
+    }
+    for (const auto& [key, value] : *table) {
+      AssignNode(file, std::string(section.str()) + "." + std::string(key.str()), value, config);
+    }
+  }
+}
+
+void ApplySetting(std::string_view assignment, Config& config) {
+  const std::string where = "--set " + std::string(assignment) + ": ";
+  const std::size_t equals = assignment.find('=');
+  if (equals == 0 || equals == std::string_view::npos) {
+    Refuse(where, "name=value is needed, e.g. registration.iterations=10");
+  }
+  const std::string_view text = assignment.substr(equals + 1);
+  const char* const end = text.data() + text.size();
+  Number number{.text = std::string(text)};
+  const auto [stop, error] = std::from_chars(text.data(), end, number.value);
+  if (error != std::errc{} || stop != end) Refuse(where, "'" + number.text + "' is not a number");
+  number.is_integer = std::trunc(number.value) == number.value;
+  Assign(where, assignment.substr(0, equals), number, config);
+}
+
+void CheckSettings(const Config& config) {
+  const ConfigIssue issue = Validate(config);
+  if (issue.status() == Status::kOk) return;
+  Refuse("", std::string(issue.field) + " = " + Compact(issue.value) +
+                 " does not fit the other settings; allowed: " + Compact(issue.min) + " to " +
+                 Compact(issue.max));
+}
+
+}  // namespace disflow::apps

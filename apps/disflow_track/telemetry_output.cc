@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "telemetry_output.h"
+
+#include "exit_status.h"
+
+namespace disflow::apps {
+namespace {
+
+using hal::ByteLink;
+using hal::Fault;
+
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
+
+hal::mavlink::TelemetryOptions EncoderOptions(std::uint8_t object_index) {
+  hal::mavlink::TelemetryOptions options;
+  options.object_index = object_index;
+  return options;
+}
+
+}  // namespace
+
+TelemetryOutput::TelemetryOutput(const std::vector<std::string>& uris, std::uint8_t object_index,
+                                 Console& console)
+    : console_(console), encoder_(EncoderOptions(object_index)) {
+  for (const std::string& uri : uris) {
+    const Fault fault = lines_.emplace_back().link.Configure(uri);
+    if (!fault.ok()) throw Failure(kWrongUsage, fault.message);
+  }
+  for (Line& line : lines_) {
+    const Fault fault = line.link.get()->Open();
+    if (!fault.ok()) throw Failure(kOutputFailed, fault.message);
+  }
+}
+
+TelemetryOutput::~TelemetryOutput() {
+  for (Line& line : lines_) line.link.get()->Close();
+}
+
+void TelemetryOutput::Send(const FrameResult& result, std::int64_t age_ns,
+                           std::int64_t now_ns) noexcept {
+  if (lines_.empty()) return;
+  Reopen(now_ns);
+  const Estimate& estimate = result.estimate;
+  state_ = estimate.state;
+  stamp_ns_ = estimate.stamp_ns;
+  // In a replay at full speed a second of the stream passes sooner than one on the clock.
+  if (!heartbeat_sent_ || now_ns - heartbeat_ns_ >= kSecond_ns ||
+      stamp_ns_ - heartbeat_stamp_ns_ >= kSecond_ns) {
+    SendHeartbeat(now_ns);
+  }
+  Broadcast(encoder_.EncodeOdometry(estimate, buffer_));
+  const hal::mavlink::SendContext context{
+      .age_ns = age_ns, .dropped_frames = result.dropped_frames, .totals = result.totals};
+  Broadcast(encoder_.EncodeStatus(estimate, context, buffer_));
+}
+
+void TelemetryOutput::KeepAlive(std::int64_t now_ns) noexcept {
+  if (lines_.empty()) return;
+  Reopen(now_ns);
+  if (!heartbeat_sent_ || now_ns - heartbeat_ns_ >= kSecond_ns) SendHeartbeat(now_ns);
+}
+
+void TelemetryOutput::SendHeartbeat(std::int64_t now_ns) noexcept {
+  heartbeat_sent_ = true;
+  heartbeat_ns_ = now_ns;
+  heartbeat_stamp_ns_ = stamp_ns_;
+  Broadcast(encoder_.EncodeHeartbeat(state_, buffer_));
+}
+
+void TelemetryOutput::Broadcast(Expected<std::size_t> size) noexcept {
+  // The buffer holds every message, so encoding cannot fail.
+  if (!size.ok()) return;
+  for (Line& line : lines_) SendOn(line, std::span(buffer_).first(size.value));
+}
+
+void TelemetryOutput::SendOn(Line& line, std::span<const std::byte> message) noexcept {
+  if (line.lost) return;
+  const Fault fault = line.link.get()->Send(message);
+  // A full buffer is counted by the link itself and is no reason to open it anew.
+  if (fault.ok() || fault.status == Status::kWouldBlock) return;
+  line.lost = true;
+  line.retry_ns = 0;
+  console_.Say(std::string(fault.message) +
+               "; tracking goes on, the link is tried again every second");
+}
+
+void TelemetryOutput::Reopen(std::int64_t now_ns) noexcept {
+  for (Line& line : lines_) {
+    if (!line.lost) continue;
+    if (line.retry_ns == 0) line.retry_ns = now_ns + kSecond_ns;
+    if (now_ns < line.retry_ns) continue;
+    line.retry_ns = now_ns + kSecond_ns;
+    if (!line.link.get()->Open().ok()) continue;
+    line.lost = false;
+    console_.Say(std::string(line.link.get()->name()) + ": is back");
+  }
+}
+
+std::vector<std::string> TelemetryOutput::Summary() {
+  std::vector<std::string> summary;
+  for (Line& line : lines_) {
+    const ByteLink& link = *line.link.get();
+    const hal::LinkCounters counters = link.counters();
+    summary.push_back(std::string(link.name()) + ": " + std::to_string(counters.sent_messages) +
+                      " messages sent, " + std::to_string(counters.dropped_messages) +
+                      " dropped, " + std::to_string(counters.refused_messages) + " refused, " +
+                      std::to_string(counters.reconnects) + " reconnects" +
+                      (line.lost ? ", lost" : ""));
+  }
+  return summary;
+}
+
+bool TelemetryOutput::AnyLost() const noexcept {
+  for (const Line& line : lines_) {
+    if (line.lost) return true;
+  }
+  return false;
+}
+
+}  // namespace disflow::apps

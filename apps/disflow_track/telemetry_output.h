@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "console.h"
+#include "disflow/hal/mavlink/telemetry.h"
+#include "disflow/posix/link.h"
+#include "frame_result.h"
+
+namespace disflow::apps {
+
+/// Sends the estimates of one object over any number of links. A link that fails while running
+/// never stops the tracking: it is said once, counted, and opened again as soon as that is
+/// possible.
+class TelemetryOutput {
+ public:
+  /// Opens the links.
+  /// @throws Failure kWrongUsage for an address that cannot be parsed, kOutputFailed for a link
+  /// that cannot be opened.
+  TelemetryOutput(const std::vector<std::string>& uris, std::uint8_t object_index,
+                  Console& console);
+  TelemetryOutput(const TelemetryOutput&) = delete;
+  TelemetryOutput& operator=(const TelemetryOutput&) = delete;
+  ~TelemetryOutput();
+
+  /// ODOMETRY and DISFLOW_STATUS of a frame, and HEARTBEAT if one is due.
+  /// @param age_ns From capture to now; negative = unknown.
+  void Send(const FrameResult& result, std::int64_t age_ns, std::int64_t now_ns) noexcept;
+  /// HEARTBEAT if one is due although no frame comes.
+  void KeepAlive(std::int64_t now_ns) noexcept;
+
+  /// @return A line per link for people: what was sent and what was lost.
+  [[nodiscard]] std::vector<std::string> Summary();
+  /// @return true if a link is down now.
+  [[nodiscard]] bool AnyLost() const noexcept;
+
+ private:
+  struct Line {
+    posix::Link link;
+    bool lost = false;
+    std::int64_t retry_ns = 0;
+  };
+
+  void SendHeartbeat(std::int64_t now_ns) noexcept;
+  void Broadcast(Expected<std::size_t> size) noexcept;
+  void SendOn(Line& line, std::span<const std::byte> message) noexcept;
+  void Reopen(std::int64_t now_ns) noexcept;
+
+  Console& console_;
+  std::deque<Line> lines_;
+  hal::mavlink::TelemetryEncoder encoder_;
+  std::array<std::byte, hal::mavlink::kMaxFrameSize> buffer_{};
+  TrackingState state_ = TrackingState::kInitialising;
+  bool heartbeat_sent_ = false;
+  std::int64_t heartbeat_ns_ = 0;   ///< On the clock.
+  StampNs heartbeat_stamp_ns_ = 0;  ///< In the stream.
+  StampNs stamp_ns_ = 0;
+};
+
+}  // namespace disflow::apps
