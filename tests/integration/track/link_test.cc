@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <arpa/inet.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+
+#include <array>
+#include <map>
+
+#include "child_process.h"
+#include "disflow/hal/mavlink/frame_decoder.h"
+#include "disflow/hal/mavlink/telemetry.h"
+#include "disflow/posix/file_descriptor.h"
+#include "estimate_csv.h"
+#include "scratch_folder.h"
+
+namespace disflow::test {
+namespace {
+
+namespace mavlink = hal::mavlink;
+
+/// A UDP socket on a free local port.
+class Receiver {
+ public:
+  Receiver() : socket_(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    auto* const generic = reinterpret_cast<sockaddr*>(&address);
+    if (::bind(socket_.get(), generic, sizeof(address)) != 0) throw std::runtime_error("bind");
+    socklen_t size = sizeof(address);
+    (void)::getsockname(socket_.get(), generic, &size);
+    port_ = ntohs(address.sin_port);
+  }
+
+  [[nodiscard]] std::string port() const { return std::to_string(port_); }
+
+  /// Calls use(frame) for every MAVLink frame that has arrived.
+  template <class Use>
+  void Drain(Use&& use) {
+    std::array<std::byte, 2048> buffer;
+    for (;;) {
+      const ssize_t size = ::recv(socket_.get(), buffer.data(), buffer.size(), MSG_DONTWAIT);
+      if (size <= 0) return;
+      std::span<const std::byte> bytes(buffer.data(), static_cast<std::size_t>(size));
+      mavlink::FrameView frame;
+      while (!bytes.empty()) {
+        bytes = bytes.subspan(decoder_.Feed(bytes));
+        while (decoder_.Next(frame)) use(frame);
+      }
+    }
+  }
+  [[nodiscard]] const mavlink::DecoderCounters& counters() const { return decoder_.counters(); }
+
+ private:
+  posix::FileDescriptor socket_;
+  std::uint16_t port_ = 0;
+  mavlink::FrameDecoder decoder_;
+};
+
+class LinkTest : public ScratchFolderTest {};
+
+TEST_F(LinkTest, UdpReceiver_GetsPoseAndStatusOfEveryFrameAndHeartbeats) {
+  constexpr int kFrames = 45;  // 1.5 s
+  Receiver receiver;
+  const Outcome outcome =
+      RunTrack({"--sensor", "sim:bottle?frames=" + std::to_string(kFrames), "--link",
+                "udp://127.0.0.1:" + receiver.port(), "--id", "3", "--csv", Path("run.csv")},
+               scratch());
+  ASSERT_EQ(outcome.exit_status, 0) << outcome.err;
+
+  std::map<std::uint32_t, int> messages;
+  std::vector<mavlink::Odometry> poses;
+  receiver.Drain([&](const mavlink::FrameView& frame) {
+    ++messages[frame.message_id];
+    EXPECT_EQ(frame.header.system_id, mavlink::TelemetryOptions{}.system_id);
+    EXPECT_EQ(frame.header.component_id, mavlink::kFirstComponentId + 3);
+    mavlink::Odometry pose;
+    if (frame.message_id == mavlink::Odometry::kId &&
+        mavlink::DecodePayload(frame, pose) == Status::kOk) {
+      poses.push_back(pose);
+    }
+  });
+  EXPECT_EQ(messages[mavlink::Odometry::kId], kFrames);
+  EXPECT_EQ(messages[mavlink::DisflowStatus::kId], kFrames);
+  EXPECT_GE(messages[mavlink::Heartbeat::kId], 2);
+  EXPECT_EQ(receiver.counters().bad_checksum, 0U);
+  EXPECT_EQ(receiver.counters().skipped_bytes, 0U);
+
+  const apps::EstimateTable table = apps::LoadEstimates(Path("run.csv"), kFrames);
+  ASSERT_EQ(poses.size(), table.rows.size());
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const auto micros = static_cast<double>(poses[i].time_usec);
+    EXPECT_NEAR(micros * 1e-6, table.rows[i].timestamp_s, 2e-6);
+  }
+}
+
+TEST_F(LinkTest, NobodyListens_TrackingGoesOn) {
+  const Outcome outcome = RunTrack(
+      {"--sensor", "sim:bottle?frames=5", "--link", "udp://127.0.0.1:9", "--csv", Path("run.csv")},
+      scratch());
+  EXPECT_EQ(outcome.exit_status, 0) << outcome.err;
+  EXPECT_EQ(apps::LoadEstimates(Path("run.csv"), 5).rows.size(), 5U);
+}
+
+TEST_F(LinkTest, PortInUse_IsSaidBeforeTheRun) {
+  const Receiver taken;
+  WriteFile(Path("run.csv"), "earlier result\n");
+  const Outcome outcome =
+      RunTrack({"--sensor", "sim:bottle?frames=5", "--link",
+                "udp://127.0.0.1:9?bind=" + taken.port(), "--csv", Path("run.csv")},
+               scratch());
+  EXPECT_EQ(outcome.exit_status, 4) << outcome.err;
+  EXPECT_NE(outcome.err.find(taken.port()), std::string::npos) << outcome.err;
+  EXPECT_EQ(ReadFile(Path("run.csv")), "earlier result\n");
+}
+
+}  // namespace
+}  // namespace disflow::test

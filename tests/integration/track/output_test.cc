@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+#include "child_process.h"
+#include "estimate_csv.h"
+#include "ply_file.h"
+#include "scratch_folder.h"
+
+namespace disflow::test {
+namespace {
+
+/// Long enough that it never ends by itself during a test.
+constexpr const char* kEndlessSensor = "sim:bottle?frames=30000";
+
+class OutputTest : public ScratchFolderTest {
+ protected:
+  /// Waits until a running program has written some lines.
+  void AwaitLines(const std::string& file, std::ptrdiff_t lines) const {
+    for (int i = 0; i < 3000; ++i) {
+      const std::string text = ReadFile(file);
+      if (std::count(text.begin(), text.end(), '\n') >= lines) return;
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    FAIL() << file << " does not grow";
+  }
+};
+
+class StopSignal : public OutputTest, public testing::WithParamInterface<int> {};
+
+TEST_P(StopSignal, EndsTheRunWithEverythingWritten) {
+  ChildProcess track(DISFLOW_TRACK,
+                     {"--sensor", kEndlessSensor, "--csv", Path("run.csv"), "--mesh",
+                      Path("run.ply"), "--record", Path("recorded")},
+                     scratch());
+  AwaitLines(Path("run.csv"), 10);
+  track.Signal(GetParam());
+  const Outcome outcome = track.Wait();
+  EXPECT_EQ(outcome.exit_status, 0) << outcome.err;
+  EXPECT_EQ(ReadFile(Path("run.csv")).back(), '\n');
+  const std::size_t rows = apps::LoadEstimates(Path("run.csv"), 30000).rows.size();
+  EXPECT_GE(rows, 9U);
+  EXPECT_NE(outcome.err.find(std::to_string(rows) + " frames"), std::string::npos) << outcome.err;
+  EXPECT_FALSE(apps::LoadPly(Path("run.ply")).vertices.empty());
+
+  const Outcome replay =
+      RunTrack({"--sensor", "replay:" + Path("recorded"), "--csv", Path("again.csv")}, scratch());
+  EXPECT_EQ(replay.exit_status, 0) << replay.err;
+  EXPECT_EQ(apps::LoadEstimates(Path("again.csv"), 30000).rows.size(), rows);
+}
+
+INSTANTIATE_TEST_SUITE_P(Output, StopSignal, testing::Values(SIGINT, SIGTERM, SIGHUP),
+                         [](const testing::TestParamInfo<int>& info) {
+                           return std::string(info.param == SIGINT    ? "Interrupt"
+                                              : info.param == SIGTERM ? "Terminate"
+                                                                      : "HangUp");
+                         });
+
+TEST_F(OutputTest, FailedStart_LeavesEarlierResultsAlone) {
+  WriteFile(Path("run.csv"), "earlier\n");
+  WriteFile(Path("run.ply"), "earlier\n");
+  for (const char* sensor : {"replay:/nonexistent", "warp:drive"}) {
+    const Outcome outcome = RunTrack(
+        {"--sensor", sensor, "--csv", Path("run.csv"), "--mesh", Path("run.ply")}, scratch());
+    EXPECT_EQ(outcome.exit_status, 3) << outcome.err;
+  }
+  const Outcome outcome = RunTrack({"--sensor", "sim:bottle?frames=3", "--csv", Path("run.csv"),
+                                    "--mesh", "/nonexistent/run.ply"},
+                                   scratch());
+  EXPECT_EQ(outcome.exit_status, 4) << outcome.err;
+  EXPECT_EQ(ReadFile(Path("run.csv")), "earlier\n");
+  EXPECT_EQ(ReadFile(Path("run.ply")), "earlier\n");
+}
+
+/// Limits the size of the files that programs started meanwhile may write, as a full disk would.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) {
+    (void)::signal(SIGXFSZ, SIG_IGN);  // inherited: writing then fails with EFBIG
+    (void)::getrlimit(RLIMIT_FSIZE, &before_);
+    rlimit limit = before_;
+    limit.rlim_cur = bytes;
+    (void)::setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileSizeLimit() { (void)::setrlimit(RLIMIT_FSIZE, &before_); }
+
+ private:
+  rlimit before_{};
+};
+
+TEST_F(OutputTest, DiskFullWhileRunning_KeepsWholeRowsAndSaysSo) {
+  Outcome outcome;
+  {
+    const FileSizeLimit limit(10000);
+    outcome = RunTrack({"--sensor", "sim:bottle?frames=40", "--csv", Path("run.csv")}, scratch());
+  }
+  EXPECT_EQ(outcome.exit_status, 4) << outcome.err;
+  EXPECT_NE(outcome.err.find("run.csv: cannot be written"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("40 frames"), std::string::npos)
+      << "tracking goes on: " << outcome.err;
+  const std::string text = ReadFile(Path("run.csv"));
+  ASSERT_FALSE(text.empty());
+  EXPECT_EQ(text.back(), '\n');
+  EXPECT_GE(apps::LoadEstimates(Path("run.csv"), 40).rows.size(), 3U);
+}
+
+TEST_F(OutputTest, DiskFullForTheMesh_KeepsTheEarlierMesh) {
+  WriteFile(Path("run.ply"), "earlier\n");
+  Outcome outcome;
+  {
+    const FileSizeLimit limit(10000);
+    outcome = RunTrack({"--sensor", "sim:bottle?frames=5", "--mesh", Path("run.ply")}, scratch());
+  }
+  EXPECT_EQ(outcome.exit_status, 4) << outcome.err;
+  EXPECT_EQ(ReadFile(Path("run.ply")), "earlier\n");
+}
+
+TEST_F(OutputTest, Mesh_HasUnitNormalsAndAnUncertaintyAtEveryVertex) {
+  const Outcome outcome =
+      RunTrack({"--sensor", "sim:bottle?frames=10", "--mesh", Path("run.ply")}, scratch());
+  ASSERT_EQ(outcome.exit_status, 0) << outcome.err;
+  const std::string ply = ReadFile(Path("run.ply"));
+  EXPECT_EQ(ply.rfind("ply\nformat binary_little_endian 1.0\n", 0), 0U);
+  EXPECT_NE(ply.find("property float std_m\n"), std::string::npos);
+  const auto mesh = apps::LoadPly(Path("run.ply"));
+  ASSERT_GT(mesh.vertices.size(), 1000U);
+  EXPECT_GT(mesh.triangles.size(), mesh.vertices.size()) << "vertices are shared";
+}
+
+}  // namespace
+}  // namespace disflow::test

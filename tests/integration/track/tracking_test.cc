@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include "child_process.h"
+#include "estimate_csv.h"
+#include "evaluation.h"
+#include "scratch_folder.h"
+
+namespace disflow::test {
+namespace {
+
+/// What is to be simulated and how well it must at least be tracked.
+struct Scene {
+  const char* name;
+  const char* object;
+  const char* motion;
+  const char* noise;
+  double least_add_auc;
+};
+
+void PrintTo(const Scene& scene, std::ostream* stream) { *stream << scene.name; }
+
+class SimulatedScene : public ScratchFolderTest, public testing::WithParamInterface<Scene> {};
+
+TEST_P(SimulatedScene, IsTracked) {
+  const Scene& scene = GetParam();
+  const Outcome simulated =
+      RunSim({Path("sequence"), "--object", scene.object, "--motion", scene.motion, "--noise",
+              scene.noise, "--seed", "1", "--frames", "60"},
+             scratch());
+  ASSERT_EQ(simulated.exit_status, 0) << simulated.err;
+  const Outcome tracked = RunTrack({"--sensor", "replay:" + Path("sequence") + "?mask=gt", "--csv",
+                                    Path("run.csv"), "--mesh", Path("run.ply"), "--headless"},
+                                   scratch());
+  ASSERT_EQ(tracked.exit_status, 0) << tracked.err;
+  const apps::Report report = apps::Evaluate({.sequence_dir = Path("sequence"),
+                                              .csv = Path("run.csv"),
+                                              .model = {},
+                                              .mesh = Path("run.ply")});
+  EXPECT_GE(report.poses.add_auc, scene.least_add_auc);
+  ASSERT_TRUE(report.surface.has_value());
+}
+
+INSTANTIATE_TEST_SUITE_P(Tracking, SimulatedScene,
+                         testing::Values(Scene{"BottleFastClean", "bottle", "fast", "clean", 0.97},
+                                         Scene{"BoxFastD415", "box", "fast", "d415", 0.95},
+                                         Scene{"DoughnutModerateD415", "doughnut", "moderate",
+                                               "d415", 0.95}),
+                         [](const testing::TestParamInfo<Scene>& info) { return info.param.name; });
+
+class TrackingTest : public ScratchFolderTest {};
+
+TEST_F(TrackingTest, TwoRunsOfOneReplay_GiveTheSameBytes) {
+  const Outcome recorded = RunTrack(
+      {"--sensor", "sim:box?motion=fast&noise=d415&frames=40", "--record", Path("recorded")},
+      scratch());
+  ASSERT_EQ(recorded.exit_status, 0) << recorded.err;
+  for (const char* run : {"a", "b"}) {
+    const Outcome outcome = RunTrack(
+        {"--sensor", "replay:" + Path("recorded"), "--csv", Path(std::string(run) + ".csv"),
+         "--mesh", Path(std::string(run) + ".ply"), "--no-timing", "--headless"},
+        scratch());
+    ASSERT_EQ(outcome.exit_status, 0) << outcome.err;
+  }
+  EXPECT_EQ(ReadFile(Path("a.csv")), ReadFile(Path("b.csv")));
+  EXPECT_EQ(ReadFile(Path("a.ply")), ReadFile(Path("b.ply")));
+  EXPECT_FALSE(ReadFile(Path("a.ply")).empty());
+}
+
+TEST_F(TrackingTest, RecordedFrames_ReplayToTheSameTrajectory) {
+  const Outcome live = RunTrack({"--sensor", "sim:box?motion=fast&noise=d415&frames=20", "--record",
+                                 Path("recorded"), "--csv", Path("live.csv"), "--no-timing"},
+                                scratch());
+  ASSERT_EQ(live.exit_status, 0) << live.err;
+  const Outcome replay = RunTrack(
+      {"--sensor", "replay:" + Path("recorded"), "--csv", Path("replay.csv"), "--no-timing"},
+      scratch());
+  ASSERT_EQ(replay.exit_status, 0) << replay.err;
+  EXPECT_EQ(ReadFile(Path("live.csv")), ReadFile(Path("replay.csv")));
+}
+
+TEST_F(TrackingTest, EveryInputFrame_GivesOneRow) {
+  const Outcome outcome =
+      RunTrack({"--sensor", "sim:can?frames=25", "--csv", Path("run.csv")}, scratch());
+  ASSERT_EQ(outcome.exit_status, 0) << outcome.err;
+  const apps::EstimateTable table = apps::LoadEstimates(Path("run.csv"), 25);
+  ASSERT_EQ(table.rows.size(), 25U);
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    EXPECT_EQ(table.rows[i].frame, static_cast<int>(i));
+    EXPECT_TRUE(table.rows[i].pose_covariance.has_value());
+    EXPECT_TRUE(table.rows[i].twist_covariance.has_value());
+  }
+  for (const char* stage :
+       {"segment", "sample", "register", "filter", "fuse", "retrain", "total"}) {
+    EXPECT_TRUE(table.FindStage(stage).has_value()) << stage;
+  }
+}
+
+TEST_F(TrackingTest, FramesLimit_EndsTheRun) {
+  const Outcome outcome = RunTrack({"--sensor", "sim:can?frames=25", "--frames", "7", "--csv",
+                                    Path("run.csv"), "--rate", "realtime"},
+                                   scratch());
+  ASSERT_EQ(outcome.exit_status, 0) << outcome.err;
+  EXPECT_EQ(apps::LoadEstimates(Path("run.csv"), 25).rows.size(), 7U);
+}
+
+TEST_F(TrackingTest, EveryProfile_Tracks) {
+  for (const char* profile : {"micro", "edge", "dense"}) {
+    const Outcome outcome = RunTrack({"--sensor", "sim:bottle?frames=10&width=240&height=180",
+                                      "--profile", profile, "--csv", Path("run.csv")},
+                                     scratch());
+    EXPECT_EQ(outcome.exit_status, 0) << profile << ": " << outcome.err;
+    EXPECT_EQ(apps::LoadEstimates(Path("run.csv"), 10).rows.back().status, "ok") << profile;
+  }
+}
+
+}  // namespace
+}  // namespace disflow::test

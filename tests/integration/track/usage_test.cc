@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include "child_process.h"
+#include "scratch_folder.h"
+
+namespace disflow::test {
+namespace {
+
+constexpr const char* kSensor = "sim:bottle?frames=3";
+
+/// A command line that cannot work and what the message must name.
+struct Refusal {
+  const char* name;
+  Arguments arguments;
+  int exit_status;
+  const char* named;
+};
+
+void PrintTo(const Refusal& refusal, std::ostream* stream) { *stream << refusal.name; }
+
+class RefusedCommandLine : public ScratchFolderTest, public testing::WithParamInterface<Refusal> {};
+
+TEST_P(RefusedCommandLine, SaysWhatIsWrong) {
+  const Refusal& refusal = GetParam();
+  const Outcome outcome = RunTrack(refusal.arguments, scratch());
+  EXPECT_EQ(outcome.exit_status, refusal.exit_status) << outcome.err;
+  EXPECT_NE(outcome.err.find(refusal.named), std::string::npos) << outcome.err;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Usage, RefusedCommandLine,
+    testing::Values(
+        Refusal{"NoSensor", {}, 2, "--sensor"},
+        Refusal{"UnknownOption", {"--sensor", kSensor, "--warp"}, 2, "--warp"},
+        Refusal{"UnknownRate", {"--sensor", kSensor, "--rate", "brisk"}, 2, "--rate"},
+        Refusal{"UnknownProfile", {"--sensor", kSensor, "--profile", "huge"}, 2, "--profile"},
+        Refusal{"NoFrames", {"--sensor", kSensor, "--frames", "0"}, 2, "--frames"},
+        Refusal{"ObjectIndexTooLarge", {"--sensor", kSensor, "--id", "43"}, 2, "--id"},
+        Refusal{"SettingWithoutValue", {"--sensor", kSensor, "--set", "field"}, 2, "name=value"},
+        Refusal{
+            "SettingUnknown", {"--sensor", kSensor, "--set", "field.colour=1"}, 2, "field.colour"},
+        Refusal{"SettingNoNumber",
+                {"--sensor", kSensor, "--set", "registration.iterations=many"},
+                2,
+                "'many' is not a number"},
+        Refusal{"SettingOutOfRange",
+                {"--sensor", kSensor, "--set", "registration.iterations=51"},
+                2,
+                "1 to 50"},
+        Refusal{"SettingNotWhole",
+                {"--sensor", kSensor, "--set", "registration.iterations=2.5"},
+                2,
+                "whole number"},
+        Refusal{"SettingsContradict",
+                {"--sensor", kSensor, "--set", "segmenter.min_range_m=5"},
+                2,
+                "segmenter.max_range_m"},
+        Refusal{"SettingsFileMissing",
+                {"--sensor", kSensor, "--config", "/nonexistent/run.toml"},
+                2,
+                "/nonexistent/run.toml"},
+        Refusal{"SensorWithoutScheme", {"--sensor", "bottle"}, 2, "bottle"},
+        Refusal{"SensorUnknown", {"--sensor", "warp:drive"}, 3, "warp"},
+        Refusal{"SequenceMissing",
+                {"--sensor", "replay:/nonexistent/sequence"},
+                3,
+                "/nonexistent/sequence"},
+        Refusal{"LinkUnknown", {"--sensor", kSensor, "--link", "tcp://localhost:1"}, 2, "tcp"},
+        Refusal{"LinkDeviceMissing",
+                {"--sensor", kSensor, "--link", "serial:///dev/nonexistent"},
+                4,
+                "/dev/nonexistent"},
+        Refusal{"CsvFolderMissing",
+                {"--sensor", kSensor, "--csv", "/nonexistent/run.csv"},
+                4,
+                "/nonexistent/run.csv"},
+        Refusal{"MeshFolderMissing",
+                {"--sensor", kSensor, "--mesh", "/nonexistent/run.ply"},
+                4,
+                "/nonexistent/run.ply"},
+        Refusal{"MeshIsFolder", {"--sensor", kSensor, "--mesh", "/tmp"}, 4, "/tmp"},
+        Refusal{"RecordingUnderFile",
+                {"--sensor", kSensor, "--record", "/dev/null/run"},
+                4,
+                "/dev/null"},
+        Refusal{"DiskFull", {"--sensor", kSensor, "--csv", "/dev/full"}, 4, "/dev/full"}),
+    [](const testing::TestParamInfo<Refusal>& info) { return info.param.name; });
+
+/// A settings file with one fault and what the message must name besides file and line 2.
+struct FaultyFile {
+  const char* name;
+  const char* text;
+  const char* named;
+};
+
+void PrintTo(const FaultyFile& file, std::ostream* stream) { *stream << file.name; }
+
+class FaultySettingsFile : public ScratchFolderTest,
+                           public testing::WithParamInterface<FaultyFile> {};
+
+TEST_P(FaultySettingsFile, IsRefusedWithFileAndLine) {
+  WriteFile(Path("run.toml"), GetParam().text);
+  const Outcome outcome = RunTrack({"--sensor", kSensor, "--config", Path("run.toml")}, scratch());
+  EXPECT_EQ(outcome.exit_status, 2);
+  EXPECT_NE(outcome.err.find("run.toml:2: "), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find(GetParam().named), std::string::npos) << outcome.err;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Usage, FaultySettingsFile,
+    testing::Values(FaultyFile{"UnknownKey", "[field]\ncell_size = 0.1\n", "field.cell_size"},
+                    FaultyFile{"UnknownSection", "\n[fields]\ncell_size_m = 0.1\n", "fields"},
+                    FaultyFile{"KeyWithoutSection", "\ncell_size_m = 0.1\n", "cell_size_m"},
+                    FaultyFile{"Text", "[field]\ncell_size_m = 'small'\n", "string"},
+                    FaultyFile{"OutOfRange", "[field]\ncell_size_m = 3.0\n", "0.001 to 2 m"},
+                    FaultyFile{"NotANumber", "[field]\ncell_size_m = nan\n", "out of range"},
+                    FaultyFile{"NotWhole", "[field]\nfreeze_after = 1.5\n", "whole number"},
+                    FaultyFile{"Twice", "[field]\n[field]\n", "field"},
+                    FaultyFile{"NoToml", "[field]\n[[[\n", "Error"}),
+    [](const testing::TestParamInfo<FaultyFile>& info) { return info.param.name; });
+
+class SettingsTest : public ScratchFolderTest {};
+
+TEST_F(SettingsTest, PrintedSettingsReadBack_AreTheSame) {
+  const Outcome printed = RunTrack({"--print-config", "--set", "registration.iterations=11",
+                                    "--set", "field.cell_size_m=0.0301"},
+                                   scratch());
+  ASSERT_EQ(printed.exit_status, 0) << printed.err;
+  WriteFile(Path("run.toml"), printed.out);
+  const Outcome again = RunTrack({"--print-config", "--config", Path("run.toml")}, scratch());
+  EXPECT_EQ(again.exit_status, 0) << again.err;
+  EXPECT_EQ(again.out, printed.out);
+  EXPECT_NE(printed.out.find("\niterations = 11\n"), std::string::npos);
+  EXPECT_NE(printed.out.find("\ncell_size_m = 0.0301\n"), std::string::npos);
+}
+
+TEST_F(SettingsTest, SetOnTheCommandLine_WinsOverTheFile) {
+  WriteFile(Path("run.toml"), "[registration]\niterations = 9\n");
+  const Outcome printed = RunTrack(
+      {"--print-config", "--set", "registration.iterations=12", "--config", Path("run.toml")},
+      scratch());
+  EXPECT_NE(printed.out.find("\niterations = 12\n"), std::string::npos) << printed.out;
+}
+
+TEST_F(SettingsTest, DocumentedSettings_AreThoseOfTheProgram) {
+  const Outcome page = RunTrack({"--print-settings-table"}, scratch());
+  EXPECT_EQ(ReadFile(DISFLOW_DOCS "/settings.md"), page.out)
+      << "write it anew: disflow_track --print-settings-table > docs/settings.md";
+}
+
+TEST_F(SettingsTest, HelpAndVersion_AreAnswered) {
+  const Outcome help = RunTrack({"--help"}, scratch());
+  EXPECT_EQ(help.exit_status, 0);
+  for (const char* option :
+       {"--sensor", "--link", "--csv", "--mesh", "--config", "--rate", "--headless", "--record",
+        "--profile", "--set", "--frames", "--id", "sim:", "replay:"}) {
+    EXPECT_NE(help.out.find(option), std::string::npos) << option;
+  }
+  const Outcome version = RunTrack({"--version"}, scratch());
+  EXPECT_EQ(version.exit_status, 0);
+  EXPECT_EQ(version.out.rfind("disflow_track ", 0), 0U) << version.out;
+}
+
+}  // namespace
+}  // namespace disflow::test
