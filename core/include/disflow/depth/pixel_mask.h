@@ -41,18 +41,13 @@ class PixelMask {
 
   /// Marks the pixels [u_begin, u_end) of row v.
   void SetRun(int v, int u_begin, int u_end) noexcept {
-    Row& bits = row(v);
-    for (int u = u_begin; u < u_end;) {
-      const int word = u / kBits;
-      const int first = u % kBits;
-      const int last = std::min(kBits, first + u_end - u);
-      const Word upto = last == kBits ? ~Word{0} : (Word{1} << last) - 1;
-      bits[static_cast<std::size_t>(word)] |= upto & (~Word{0} << first);
-      u += last - first;
-    }
+    ForEachWord(u_begin, u_end, [this, v](std::size_t word, Word bits) { row(v)[word] |= bits; });
+  }
+  void ClearRun(int v, int u_begin, int u_end) noexcept {
+    ForEachWord(u_begin, u_end, [this, v](std::size_t word, Word bits) { row(v)[word] &= ~bits; });
   }
 
-  /// To be called after the last SetRun(): finds the box and the number of pixels.
+  /// To be called after the last SetRun() or ClearRun(): finds the box and the number of pixels.
   void Finish() noexcept {
     box_ = {width_px_, height_px_, 0, 0};
     count_ = 0;
@@ -115,6 +110,18 @@ class PixelMask {
   }
 
  private:
+  /// visit(index of a word, bits of it that belong to the run)
+  template <class Visitor>
+  static void ForEachWord(int u_begin, int u_end, Visitor&& visit) noexcept {
+    for (int u = u_begin; u < u_end;) {
+      const int first = u % kBits;
+      const int last = std::min(kBits, first + u_end - u);
+      const Word upto = last == kBits ? ~Word{0} : (Word{1} << last) - 1;
+      visit(static_cast<std::size_t>(u / kBits), upto & (~Word{0} << first));
+      u += last - first;
+    }
+  }
+
   [[nodiscard]] Row& row(int v) noexcept { return rows_[static_cast<std::size_t>(v)]; }
 
   [[nodiscard]] static Row ErodeRow(const Row& bits) noexcept {

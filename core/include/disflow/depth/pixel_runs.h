@@ -18,6 +18,7 @@ struct PixelRun {
   std::int16_t u_end = 0;
   std::int32_t parent = 0;  ///< Union-find link; a root links to itself.
   std::int32_t pixels = 0;  ///< Of the whole component, valid at its root.
+  std::int32_t votes = 0;   ///< See Vote(), valid at the root.
 };
 
 /// Connected components of a depth image over depth continuity, by union-find on horizontal runs.
@@ -63,10 +64,20 @@ class PixelRuns {
     }
   }
 
-  template <class Visitor>
-  void ForEachRunOf(int root, Visitor&& visit) noexcept {
+  /// Counts, per component, the pixels of those runs that vote for it.
+  template <class Judge>
+  void Vote(Judge&& judge) noexcept {
     for (int i = 0; i < count_; ++i) {
-      if (Root(i) == root) visit(run(i));
+      if (judge(run(i))) run(Root(i)).votes += run(i).u_end - run(i).u_begin;
+    }
+  }
+
+  /// visit(root of the run's component, its first run with the component's totals, run)
+  template <class Visitor>
+  void ForEachRun(Visitor&& visit) noexcept {
+    for (int i = 0; i < count_; ++i) {
+      const int root = Root(i);
+      visit(root, run(root), run(i));
     }
   }
 

@@ -29,7 +29,9 @@ class Segmenter {
     object.Start(frame.depth.width_px, frame.depth.height_px);
     if (frame.mask.given()) {
       CopyMask(frame.mask, object);
-      return object.count() > 0 ? Status::kOk : Status::kEmptyMask;
+      if (object.count() == 0) return Status::kEmptyMask;
+      CutToSurface(frame, config, prior, object, counters);
+      return object.count() > 0 ? Status::kOk : Status::kNoValidDepth;
     }
     if (config.grow_region != 0) {
       GrowRegion(frame, config, prior, object, counters);
@@ -53,6 +55,43 @@ class Segmenter {
     object.Finish();
   }
 
+  /// A loose or late mask also covers background: takes away connected surfaces that cannot be the
+  /// object. Single pixels without or with stray depth stay, since without them the outline would
+  /// be ragged.
+  void CutToSurface(const DepthFrame& frame, const SegmenterConfig& config, const ModelPrior& prior,
+                    Mask& object, Counters& counters) noexcept {
+    constexpr float kMaskMarginFactor =
+        3.0F;  // the mask is evidence too, so the prediction may be farther off
+    constexpr int kFewestPixels = 30;
+    const DepthReader depth(frame.depth, config.min_range_m, config.max_range_m);
+    const ModelGate gate{frame.camera, prior, kMaskMarginFactor * config.model_margin_m};
+    runs_.Build(depth, object.box(), config.depth_jump_ratio,
+                [&frame](int u, int v, float) { return frame.mask.row(v)[u] != 0; });
+    counters.runs_dropped += static_cast<std::uint32_t>(runs_.dropped());
+    const int largest = prior.known ? -1 : ChooseLargest();
+    if (prior.known) {
+      runs_.Vote([&](const PixelRun& run) {
+        return gate(run.u_begin, run.v, depth.At(run.u_begin, run.v));
+      });
+    }
+    runs_.ForEachRun([&](int root, const PixelRun& whole, const PixelRun& run) {
+      const bool belongs = prior.known ? 2 * whole.votes >= whole.pixels : root == largest;
+      if (!belongs && whole.pixels >= kFewestPixels) object.ClearRun(run.v, run.u_begin, run.u_end);
+    });
+    object.Finish();
+  }
+
+  [[nodiscard]] int ChooseLargest() noexcept {
+    int best = -1;
+    int most = 0;
+    runs_.ForEachComponent([&](int root, const PixelRun&, int pixels) {
+      if (pixels <= most) return;
+      most = pixels;
+      best = root;
+    });
+    return best;
+  }
+
   /// Everything is the object; the range gate drops what is too far pixel by pixel.
   static void TakeAll(const DepthFrame& frame, const SegmenterConfig& config,
                       Mask& object) noexcept {
@@ -70,8 +109,8 @@ class Segmenter {
     counters.runs_dropped += static_cast<std::uint32_t>(runs_.dropped());
     const int component = ChooseComponent(depth, config, prior, box);
     if (component < 0) return;
-    runs_.ForEachRunOf(component, [&object](const PixelRun& run) {
-      object.SetRun(run.v, run.u_begin, run.u_end);
+    runs_.ForEachRun([&](int root, const PixelRun&, const PixelRun& run) {
+      if (root == component) object.SetRun(run.v, run.u_begin, run.u_end);
     });
     object.Finish();
   }
