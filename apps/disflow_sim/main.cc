@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <CLI/CLI.hpp>
+#include <array>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "disflow/host/obj_file.h"
+#include "disflow/host/sequence_writer.h"
+#include "disflow/host/simulated_object.h"
+#include "disflow/host/simulation.h"
+
+namespace {
+
+using disflow::DepthFrame;
+using disflow::hal::Fault;
+using disflow::host::SimulationOptions;
+namespace fs = std::filesystem;
+
+enum ExitStatus : int { kDone = 0, kWrongUsage = 2, kInputFailed = 3, kOutputFailed = 4 };
+
+constexpr const char* kDescription =
+    "Writes a sequence of a simulated depth camera in the Fast-YCB layout, with ground truth.";
+
+constexpr const char* kFooter =
+    "OUT_DIR receives cam_K.json, depth/, masks/SET/, data.txt, gt/poses.txt, gt/velocities.txt,\n"
+    "gt/model.obj and, with a moving camera, T_wc.txt. The same arguments give the same bytes.\n"
+    "\n"
+    "Exit status: 0 done, 2 wrong usage, 3 an input failed, 4 an output failed.";
+
+/// A flag that sets one option of the simulation.
+struct Flag {
+  const char* name;
+  const char* key;
+  const char* help;
+};
+constexpr std::array kFlags{
+    Flag{"--motion", "motion", "static, moderate, fast, rotate360 or flying [moderate]"},
+    Flag{"--noise", "noise", "clean, d415 or kinect [clean]"},
+    Flag{"--seed", "seed", "Number that all randomness follows from [1]"},
+    Flag{"--frames", "frames", "Images taken, dropped ones included [300]"},
+    Flag{"--fps", "fps", "Images per second [30]"},
+    Flag{"--width", "width", "Image width in pixels [640]"},
+    Flag{"--height", "height", "Image height in pixels [360]"},
+    Flag{"--focal", "focal", "Focal length in pixels [as Fast-YCB's camera at this width]"},
+    Flag{"--occluder", "occluder", "none or arm [none]"},
+    Flag{"--drop", "drop", "Share of images that are lost, 0 to 0.9 [0]"},
+    Flag{"--camera", "camera", "static or moving [static]"},
+    Flag{"--format", "format", "float, or z16 for depth rounded to millimetres [float]"}};
+
+struct Arguments {
+  fs::path out_dir;
+  std::string object = "box";
+  std::array<std::string, kFlags.size()> flags;
+  std::vector<std::string> mask_sets{"gt"};
+  bool force = false;
+};
+
+int Complain(const Fault& fault, ExitStatus status) {
+  std::fprintf(stderr, "disflow_sim: %s\n", fault.message);
+  return status;
+}
+
+Fault MakeOptions(const Arguments& arguments, SimulationOptions& options) {
+  const bool is_file = arguments.object.ends_with(".obj") && !arguments.object.starts_with("obj:");
+  Fault fault = SetSimulationObject((is_file ? "obj:" : "") + arguments.object, options);
+  for (std::size_t i = 0; i < kFlags.size() && fault.ok(); ++i) {
+    if (arguments.flags[i].empty()) continue;
+    fault = SetSimulationOption(kFlags[i].key, arguments.flags[i], options);
+  }
+  for (const std::string& set : arguments.mask_sets) {
+    if (fault.ok()) fault = SetSimulationOption("mask", set, options);
+  }
+  return fault;
+}
+
+Fault WriteFrame(disflow::host::Simulation& simulation, int index,
+                 const std::vector<std::string>& mask_sets, disflow::host::SequenceWriter& writer) {
+  DepthFrame frame;
+  simulation.Render(index, frame);
+  Fault fault = writer.AddFrame(frame);
+  for (const std::string& set : mask_sets) {
+    if (!fault.ok() || set == "none") continue;
+    fault = writer.AddMask(set, set == "gt" ? simulation.gt_mask() : simulation.sloppy_mask());
+  }
+  if (fault.ok()) fault = writer.AddTruth(simulation.TruthAt(index).object);
+  return fault;
+}
+
+Fault WriteSequence(disflow::host::Simulation& simulation, const Arguments& arguments) {
+  disflow::host::SequenceWriter writer;
+  const SimulationOptions& options = simulation.options();
+  Fault fault = writer.Open(arguments.out_dir, ObjectName(options), arguments.force);
+  for (int index = 0; index < options.frames && fault.ok(); ++index) {
+    if (simulation.IsDropped(index)) continue;
+    fault = WriteFrame(simulation, index, arguments.mask_sets, writer);
+  }
+  if (fault.ok()) fault = writer.Finish();
+  if (fault.ok()) fault = WriteObj(arguments.out_dir / "gt" / "model.obj", simulation.mesh());
+  if (fault.ok()) {
+    std::printf("%d frames of %s in %s\n", writer.frame_count(), ObjectName(options).c_str(),
+                arguments.out_dir.c_str());
+  }
+  return fault;
+}
+
+int Run(const Arguments& arguments) {
+  SimulationOptions options;
+  Fault fault = MakeOptions(arguments, options);
+  if (!fault.ok()) return Complain(fault, kWrongUsage);
+  disflow::host::TriangleMesh mesh;
+  fault = LoadSimulatedObject(options, mesh);
+  if (!fault.ok()) return Complain(fault, kInputFailed);
+  disflow::host::Simulation simulation(options, std::move(mesh));
+  fault = WriteSequence(simulation, arguments);
+  return fault.ok() ? kDone : Complain(fault, kOutputFailed);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Arguments arguments;
+  CLI::App app(kDescription, "disflow_sim");
+  app.footer(kFooter);
+  app.set_version_flag("--version", "disflow_sim " DISFLOW_VERSION " (" DISFLOW_BUILD ")");
+  app.add_option("OUT_DIR", arguments.out_dir, "Folder to write; created if it does not exist")
+      ->required();
+  app.add_option("--object", arguments.object, "box, bottle, can, doughnut or FILE.obj [box]");
+  for (std::size_t i = 0; i < kFlags.size(); ++i) {
+    app.add_option(kFlags[i].name, arguments.flags[i], kFlags[i].help);
+  }
+  app.add_option("--mask", arguments.mask_sets, "Mask sets to write: gt, sloppy, none [gt]")
+      ->delimiter(',');
+  app.add_flag("--force", arguments.force, "Replace a sequence that is in OUT_DIR already");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kDone : kWrongUsage;
+  }
+  try {
+    return Run(arguments);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "disflow_sim: %s\n", error.what());
+    return kInputFailed;
+  }
+}

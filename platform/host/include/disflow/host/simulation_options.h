@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "disflow/depth/depth_frame.h"
+#include "disflow/hal/fault.h"
+#include "disflow/host/uri.h"
+
+namespace disflow::host {
+
+enum class ObjectKind : std::uint8_t { kBox, kBottle, kCan, kDoughnut, kObjFile };
+enum class MotionKind : std::uint8_t {
+  kStatic,
+  kModerate,   ///< Peaks of 0.2 m/s and 90 deg/s.
+  kFast,       ///< Peaks of 0.6 m/s and 270 deg/s.
+  kRotate360,  ///< One full turn about a nearly vertical axis, back to the start.
+  kFlying,     ///< Peaks of 1.2 m/s and 500 deg/s with velocity jumps between frames.
+};
+enum class NoiseKind : std::uint8_t { kClean, kD415, kKinect };
+enum class OccluderKind : std::uint8_t { kNone, kArm };
+enum class CameraKind : std::uint8_t { kStatic, kMoving };
+enum class MaskKind : std::uint8_t { kGt, kSloppy, kNone };
+
+/// What the simulated camera sees and how well.
+struct SimulationOptions {
+  ObjectKind object = ObjectKind::kBox;
+  std::string obj_file;  ///< With ObjectKind::kObjFile.
+  MotionKind motion = MotionKind::kModerate;
+  NoiseKind noise = NoiseKind::kClean;
+  std::uint64_t seed = 1;
+  int frames = 300;  ///< Moments at which the camera takes an image, dropped ones included.
+  double fps = 30.0;
+  int width_px = 640;
+  int height_px = 360;
+  double focal_px = 0.0;  ///< 0 = as Fast-YCB's camera at this width.
+  OccluderKind occluder = OccluderKind::kNone;
+  double drop = 0.0;  ///< Share of frames that are lost; never the first.
+  CameraKind camera = CameraKind::kStatic;
+  MaskKind mask = MaskKind::kGt;
+  DepthFormat format = DepthFormat::kFloat32;
+};
+
+/// Square pixels, principal point at half the size.
+[[nodiscard]] PinholeCamera SimulatedCamera(const SimulationOptions& options);
+
+/// Sets the option that people call `key`; see SimulationOptionsHelp().
+/// @return kInvalidUri naming the key and what is allowed.
+[[nodiscard]] hal::Fault SetSimulationOption(std::string_view key, std::string_view value,
+                                             SimulationOptions& options);
+
+/// @param name box, bottle, can, doughnut or obj:FILE.
+[[nodiscard]] hal::Fault SetSimulationObject(std::string_view name, SimulationOptions& options);
+
+/// Reads `sim:OBJECT?key=value&...`.
+/// @param options Unchanged unless the result is ok.
+[[nodiscard]] hal::Fault ParseSimulationUri(const Uri& uri, SimulationOptions& options);
+
+/// "box", "bottle", ... for file names; OBJ files are called by their file name.
+[[nodiscard]] std::string ObjectName(const SimulationOptions& options);
+
+/// The keys with their allowed values, one per line.
+[[nodiscard]] std::string SimulationOptionsHelp();
+
+}  // namespace disflow::host

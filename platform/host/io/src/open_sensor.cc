@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "disflow/host/open_sensor.h"
+
+#include "disflow/host/obj_file.h"
+#include "disflow/host/replay_sensor.h"
+#include "disflow/host/uri.h"
+
+namespace disflow::host {
+namespace {
+
+using hal::Fault;
+using hal::MakeFault;
+
+Fault OpenReplay(const Uri& uri, Sensor& sensor) {
+  ReplayOptions options;
+  if (const Fault fault = ParseReplayUri(uri, options); !fault.ok()) return fault;
+  return sensor.Emplace<ReplaySensor>(options).Open();
+}
+
+Fault OpenSimulation(const Uri& uri, Sensor& sensor) {
+  SimulationOptions options;
+  if (const Fault fault = ParseSimulationUri(uri, options); !fault.ok()) return fault;
+  TriangleMesh mesh;
+  if (const Fault fault = LoadSimulatedMesh(options, mesh); !fault.ok()) return fault;
+  auto& simulated = sensor.Emplace<SimulatedSensor>(options, std::move(mesh));
+  sensor.set_simulated(&simulated);
+  return simulated.Open();
+}
+
+}  // namespace
+
+Fault LoadSimulatedMesh(const SimulationOptions& options, TriangleMesh& mesh) {
+  if (options.object != ObjectKind::kObjFile) {
+    mesh = MakeObjectMesh(options.object);
+    return {};
+  }
+  return ReadObj(options.obj_file, mesh);
+}
+
+Fault OpenSensor(std::string_view address, Sensor& sensor) {
+  Uri uri;
+  if (const Fault fault = ParseUri(address, uri); !fault.ok()) return fault;
+  if (uri.scheme == "replay") return OpenReplay(uri, sensor);
+  if (uri.scheme == "sim") return OpenSimulation(uri, sensor);
+  return MakeFault(Status::kInvalidUri, "%s: is no kind of sensor; known: replay:DIR, sim:OBJECT",
+                   uri.scheme.c_str());
+}
+
+std::string SensorHelp() {
+  return "  replay:DIR   a recorded sequence: the Fast-YCB layout, or 16-bit PNG depth images with "
+         "cam_K.json or\n"
+         "               camera-intrinsics.txt. Options: mask=gt|none|SET (a folder in masks/), "
+         "scale=0.001 (metres per\n"
+         "               PNG unit), T_wc=poses (camera poses from T_wc.txt or pose/*.txt), "
+         "first=N, count=N\n"
+         "  sim:OBJECT   a simulated depth camera. " +
+         SimulationOptionsHelp();
+}
+
+}  // namespace disflow::host

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// Names of the files and folders of a sequence in the Fast-YCB layout.
+
+namespace disflow::host {
+
+inline constexpr const char* kCameraFile = "cam_K.json";
+inline constexpr const char* kDataFile = "data.txt";
+inline constexpr const char* kDepthFolder = "depth";
+inline constexpr const char* kMaskFolder = "masks";
+inline constexpr const char* kTruthFolder = "gt";
+inline constexpr const char* kPoseFile = "gt/poses.txt";
+inline constexpr const char* kVelocityFile = "gt/velocities.txt";
+inline constexpr const char* kWorldPoseFile = "T_wc.txt";
+inline constexpr const char* kDepthExtension = ".float";
+inline constexpr const char* kImageExtension = ".png";
+
+}  // namespace disflow::host

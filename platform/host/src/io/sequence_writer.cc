@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "disflow/host/sequence_writer.h"
+
+#include <array>
+#include <bit>
+#include <cerrno>
+#include <cinttypes>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "disflow/host/png_image.h"
+#include "sequence_layout.h"
+
+namespace disflow::host {
+namespace {
+
+namespace fs = std::filesystem;
+
+hal::Fault WriteFault(const fs::path& file) {
+  return hal::MakeFault(Status::kIoError, "%s: cannot be written: %s", file.c_str(),
+                        std::strerror(errno));
+}
+
+hal::Fault MakeFolder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!error) return {};
+  const Status status =
+      error == std::errc::permission_denied ? Status::kPermissionDenied : Status::kIoError;
+  return hal::MakeFault(status, "%s: cannot be created: %s", folder.c_str(),
+                        error.message().c_str());
+}
+
+/// Everything that a sequence consists of, and nothing else that may be in its folder.
+hal::Fault RemoveSequence(const fs::path& dir) {
+  for (const char* name :
+       {kDepthFolder, kMaskFolder, kTruthFolder, kCameraFile, kDataFile, kWorldPoseFile}) {
+    std::error_code error;
+    fs::remove_all(dir / name, error);
+    if (error) {
+      return hal::MakeFault(Status::kIoError, "%s: cannot be removed: %s", (dir / name).c_str(),
+                            error.message().c_str());
+    }
+  }
+  return {};
+}
+
+/// `x y z nx ny nz theta`.
+template <class A, class B>
+std::string FormatPose(const Transform<A, B, double>& pose) {
+  const Vec3d& t = pose.translation();
+  const Vec3d theta = LogSo3(pose.rotation());
+  const double angle_rad = theta.norm();
+  const Vec3d axis = angle_rad > 0.0 ? Vec3d(theta / angle_rad) : Vec3d::UnitZ();
+  std::array<char, 256> text{};
+  (void)std::snprintf(text.data(), text.size(), "%.12g %.12g %.12g %.15g %.15g %.15g %.15g", t.x(),
+                      t.y(), t.z(), axis.x(), axis.y(), axis.z(), angle_rad);
+  return text.data();
+}
+
+}  // namespace
+
+hal::Fault SequenceWriter::Open(const fs::path& dir, std::string_view object, bool overwrite) {
+  hal::Fault fault = MakeFolder(dir);
+  if (!fault.ok()) return fault;
+  std::error_code error;
+  if (!fs::is_empty(dir, error) && !error) {
+    if (!overwrite) {
+      return hal::MakeFault(Status::kBusy, "%s: is not empty; choose another folder or overwrite",
+                            dir.c_str());
+    }
+    fault = RemoveSequence(dir);
+    if (!fault.ok()) return fault;
+  }
+  fault = MakeFolder(dir / kDepthFolder);
+  if (!fault.ok()) return fault;
+  dir_ = dir;
+  object_ = object;
+  frames_ = 0;
+  data_.open(dir / kDataFile, std::ios::binary);
+  return data_ ? hal::Fault{} : WriteFault(dir / kDataFile);
+}
+
+hal::Fault SequenceWriter::AddFrame(const DepthFrame& frame) {
+  if (dir_.empty()) return hal::MakeFault(Status::kNotOpen, "sequence writer: not open");
+  const DepthView& depth = frame.depth;
+  if (frames_ == 0) {
+    const hal::Fault fault = WriteCamera(frame);
+    if (!fault.ok()) return fault;
+  } else if (depth.width_px != width_px_ || depth.height_px != height_px_) {
+    return hal::MakeFault(
+        Status::kInvalidImageSize, "%s: frame %d is %dx%d, the sequence is %dx%d; start a new one",
+        dir_.c_str(), frames_, depth.width_px, depth.height_px, width_px_, height_px_);
+  }
+  hal::Fault fault = WriteDepth(depth);
+  if (!fault.ok()) return fault;
+  std::array<char, 64> line{};
+  constexpr StampNs kNsPerS = 1'000'000'000;
+  // Not through double, which cannot hold nanoseconds of large stamps.
+  (void)std::snprintf(line.data(), line.size(), "%d %" PRId64 ".%09" PRId64, frames_,
+                      frame.stamp_ns / kNsPerS, frame.stamp_ns % kNsPerS);
+  fault = AppendLine(data_, kDataFile, line.data());
+  if (fault.ok() && frame.has_T_wc) {
+    fault = AppendLine(world_poses_, kWorldPoseFile, FormatPose(frame.T_wc.Cast<double>()));
+  }
+  if (fault.ok()) ++frames_;
+  return fault;
+}
+
+hal::Fault SequenceWriter::WriteCamera(const DepthFrame& frame) {
+  width_px_ = frame.depth.width_px;
+  height_px_ = frame.depth.height_px;
+  row_m_.resize(static_cast<std::size_t>(width_px_));
+  const auto exact = [](float value) { return static_cast<double>(value); };
+  const nlohmann::ordered_json camera{{"width", width_px_},
+                                      {"height", height_px_},
+                                      {"fx", exact(frame.camera.fx_px)},
+                                      {"fy", exact(frame.camera.fy_px)},
+                                      {"cx", exact(frame.camera.cx_px)},
+                                      {"cy", exact(frame.camera.cy_px)}};
+  std::ofstream file(dir_ / kCameraFile, std::ios::binary);
+  file << camera.dump(2) << '\n';
+  file.close();
+  return file ? hal::Fault{} : WriteFault(dir_ / kCameraFile);
+}
+
+hal::Fault SequenceWriter::WriteDepth(const DepthView& depth) {
+  const fs::path path = dir_ / kDepthFolder / (std::to_string(frames_) + kDepthExtension);
+  std::ofstream file(path, std::ios::binary);
+  const std::array<std::uint64_t, 2> size{static_cast<std::uint64_t>(width_px_),
+                                          static_cast<std::uint64_t>(height_px_)};
+  static_assert(std::endian::native == std::endian::little, "the format is little endian");
+  file.write(reinterpret_cast<const char*>(size.data()), sizeof(size));
+  const auto row_bytes = static_cast<std::streamsize>(row_m_.size() * sizeof(float));
+  for (int v = 0; v < height_px_; ++v) {
+    const std::byte* source = depth.row(v);
+    if (depth.format == DepthFormat::kFloat32) {
+      file.write(reinterpret_cast<const char*>(source), row_bytes);
+      continue;
+    }
+    for (std::size_t u = 0; u < row_m_.size(); ++u) {
+      std::uint16_t raw = 0;
+      std::memcpy(&raw, source + 2 * u, sizeof(raw));
+      row_m_[u] = static_cast<float>(raw) * depth.unit_m;
+    }
+    file.write(reinterpret_cast<const char*>(row_m_.data()), row_bytes);
+  }
+  file.close();
+  return file ? hal::Fault{} : WriteFault(path);
+}
+
+hal::Fault SequenceWriter::AddMask(std::string_view set, const MaskView& mask) {
+  if (frames_ == 0) return hal::MakeFault(Status::kNotOpen, "sequence writer: no frame added yet");
+  if (mask.width_px != width_px_ || mask.height_px != height_px_) {
+    return hal::MakeFault(Status::kMaskSizeMismatch, "%s: mask of frame %d is %dx%d, depth %dx%d",
+                          dir_.c_str(), frames_ - 1, mask.width_px, mask.height_px, width_px_,
+                          height_px_);
+  }
+  const fs::path folder = dir_ / kMaskFolder / set;
+  const hal::Fault fault = MakeFolder(folder);
+  if (!fault.ok()) return fault;
+  const std::string name = object_ + "_" + std::to_string(frames_ - 1) + kImageExtension;
+  return WriteGray8Png(folder / name, mask.data, width_px_, height_px_, mask.stride_bytes);
+}
+
+hal::Fault SequenceWriter::AddTruth(const RigidState<Camera, Object>& object) {
+  if (frames_ == 0) return hal::MakeFault(Status::kNotOpen, "sequence writer: no frame added yet");
+  hal::Fault fault = MakeFolder(dir_ / kTruthFolder);
+  if (fault.ok()) fault = AppendLine(poses_, kPoseFile, FormatPose(object.pose));
+  if (!fault.ok()) return fault;
+  const Vec3d& v = object.linear_mps;
+  const Vec3d& w = object.angular_rps;
+  std::array<char, 192> line{};
+  (void)std::snprintf(line.data(), line.size(), "%.12g %.12g %.12g %.12g %.12g %.12g", v.x(), v.y(),
+                      v.z(), w.x(), w.y(), w.z());
+  return AppendLine(velocities_, kVelocityFile, line.data());
+}
+
+hal::Fault SequenceWriter::AppendLine(std::ofstream& stream, const char* name,
+                                      const std::string& line) {
+  if (!stream.is_open()) stream.open(dir_ / name, std::ios::binary);
+  stream << line << '\n';
+  return stream ? hal::Fault{} : WriteFault(dir_ / name);
+}
+
+hal::Fault SequenceWriter::Finish() {
+  hal::Fault fault;
+  const auto close = [&](std::ofstream& stream, const char* name) {
+    if (!stream.is_open()) return;
+    stream.close();
+    if (!stream && fault.ok()) fault = WriteFault(dir_ / name);
+  };
+  close(data_, kDataFile);
+  close(poses_, kPoseFile);
+  close(velocities_, kVelocityFile);
+  close(world_poses_, kWorldPoseFile);
+  dir_.clear();
+  return fault;
+}
+
+}  // namespace disflow::host

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "disflow/host/simulation_options.h"
+
+#include <array>
+#include <limits>
+
+#include "disflow/host/option_value.h"
+
+namespace disflow::host {
+namespace {
+
+constexpr std::array kObjects{Choice<ObjectKind>{"box", ObjectKind::kBox},
+                              Choice<ObjectKind>{"bottle", ObjectKind::kBottle},
+                              Choice<ObjectKind>{"can", ObjectKind::kCan},
+                              Choice<ObjectKind>{"doughnut", ObjectKind::kDoughnut}};
+constexpr std::array kMotions{Choice<MotionKind>{"static", MotionKind::kStatic},
+                              Choice<MotionKind>{"moderate", MotionKind::kModerate},
+                              Choice<MotionKind>{"fast", MotionKind::kFast},
+                              Choice<MotionKind>{"rotate360", MotionKind::kRotate360},
+                              Choice<MotionKind>{"flying", MotionKind::kFlying}};
+constexpr std::array kNoises{Choice<NoiseKind>{"clean", NoiseKind::kClean},
+                             Choice<NoiseKind>{"d415", NoiseKind::kD415},
+                             Choice<NoiseKind>{"kinect", NoiseKind::kKinect}};
+constexpr std::array kOccluders{Choice<OccluderKind>{"none", OccluderKind::kNone},
+                                Choice<OccluderKind>{"arm", OccluderKind::kArm}};
+constexpr std::array kCameras{Choice<CameraKind>{"static", CameraKind::kStatic},
+                              Choice<CameraKind>{"moving", CameraKind::kMoving}};
+constexpr std::array kMasks{Choice<MaskKind>{"gt", MaskKind::kGt},
+                            Choice<MaskKind>{"sloppy", MaskKind::kSloppy},
+                            Choice<MaskKind>{"none", MaskKind::kNone}};
+constexpr std::array kFormats{Choice<DepthFormat>{"float", DepthFormat::kFloat32},
+                              Choice<DepthFormat>{"z16", DepthFormat::kUint16}};
+
+constexpr std::string_view kObjPrefix = "obj:";
+
+template <class Value, std::size_t kCount>
+constexpr std::span<const Choice<Value>> All(const std::array<Choice<Value>, kCount>& choices) {
+  return choices;
+}
+
+/// One option: its key, how it is set and what is allowed.
+struct Option {
+  std::string_view key;
+  hal::Fault (*set)(std::string_view key, std::string_view value, SimulationOptions& options);
+  std::string (*allowed)();
+};
+
+template <auto kMember, const auto& kChoices>
+constexpr Option ChoiceOption(std::string_view key) {
+  return {key,
+          [](std::string_view k, std::string_view value, SimulationOptions& options) {
+            return ParseChoice(k, value, All(kChoices), options.*kMember);
+          },
+          [] { return ListChoices(All(kChoices)); }};
+}
+
+template <auto kMember, auto kMin, auto kMax>
+constexpr Option NumberOption(std::string_view key) {
+  return {key,
+          [](std::string_view k, std::string_view value, SimulationOptions& options) {
+            auto& member = options.*kMember;
+            using Number = std::remove_reference_t<decltype(member)>;
+            return ParseNumber(k, value, static_cast<Number>(kMin), static_cast<Number>(kMax),
+                               member);
+          },
+          [] {
+            std::array<char, 64> text{};
+            (void)std::snprintf(text.data(), text.size(), "%.10g to %.10g",
+                                static_cast<double>(kMin), static_cast<double>(kMax));
+            return std::string(text.data());
+          }};
+}
+
+using Options = SimulationOptions;
+constexpr std::array kOptions{
+    ChoiceOption<&Options::motion, kMotions>("motion"),
+    ChoiceOption<&Options::noise, kNoises>("noise"),
+    NumberOption<&Options::seed, 0U, std::numeric_limits<std::uint32_t>::max()>("seed"),
+    NumberOption<&Options::frames, 1, 1000000>("frames"),
+    NumberOption<&Options::fps, 1.0, 1000.0>("fps"),
+    NumberOption<&Options::width_px, 32, 4096>("width"),
+    NumberOption<&Options::height_px, 32, 4096>("height"),
+    NumberOption<&Options::focal_px, 16.0, 16384.0>("focal"),
+    ChoiceOption<&Options::occluder, kOccluders>("occluder"),
+    NumberOption<&Options::drop, 0.0, 0.9>("drop"),
+    ChoiceOption<&Options::camera, kCameras>("camera"),
+    ChoiceOption<&Options::mask, kMasks>("mask"),
+    ChoiceOption<&Options::format, kFormats>("format")};
+
+std::string ListKeys() {
+  std::string list;
+  for (const Option& option : kOptions) {
+    if (!list.empty()) list += ", ";
+    list += option.key;
+  }
+  return list;
+}
+
+}  // namespace
+
+PinholeCamera SimulatedCamera(const SimulationOptions& options) {
+  // Fast-YCB's camera: f = 1229.43 px at 1280 px width.
+  constexpr double kFocalPerWidth = 1229.43 / 1280.0;
+  const double focal_px =
+      options.focal_px > 0.0 ? options.focal_px : kFocalPerWidth * options.width_px;
+  const auto focal = static_cast<float>(focal_px);
+  return {focal, focal, 0.5F * static_cast<float>(options.width_px),
+          0.5F * static_cast<float>(options.height_px)};
+}
+
+hal::Fault SetSimulationOption(std::string_view key, std::string_view value,
+                               SimulationOptions& options) {
+  for (const Option& option : kOptions) {
+    if (option.key == key) return option.set(key, value, options);
+  }
+  return hal::MakeFault(Status::kInvalidUri, "the simulated camera has no option %.*s; known: %s",
+                        static_cast<int>(key.size()), key.data(), ListKeys().c_str());
+}
+
+hal::Fault SetSimulationObject(std::string_view name, SimulationOptions& options) {
+  if (name.starts_with(kObjPrefix) && name.size() > kObjPrefix.size()) {
+    options.object = ObjectKind::kObjFile;
+    options.obj_file = name.substr(kObjPrefix.size());
+    return {};
+  }
+  for (const auto& [word, kind] : kObjects) {
+    if (word != name) continue;
+    options.object = kind;
+    return {};
+  }
+  return hal::MakeFault(
+      Status::kInvalidUri, "'%.*s' is no simulated object; known: %s, obj:FILE.obj",
+      static_cast<int>(name.size()), name.data(), ListChoices(All(kObjects)).c_str());
+}
+
+hal::Fault ParseSimulationUri(const Uri& uri, SimulationOptions& options) {
+  SimulationOptions parsed;
+  hal::Fault fault = SetSimulationObject(uri.path, parsed);
+  for (const auto& [key, value] : uri.query) {
+    if (fault.ok()) fault = SetSimulationOption(key, value, parsed);
+  }
+  if (fault.ok()) options = parsed;
+  return fault;
+}
+
+std::string ObjectName(const SimulationOptions& options) {
+  for (const auto& [word, kind] : kObjects) {
+    if (kind == options.object) return std::string(word);
+  }
+  const std::string& file = options.obj_file;
+  const std::size_t slash = file.rfind('/');
+  const std::string name = slash == std::string::npos ? file : file.substr(slash + 1);
+  return name.substr(0, name.rfind('.'));
+}
+
+std::string SimulationOptionsHelp() {
+  std::string help;
+  for (const Option& option : kOptions) {
+    help += "  ";
+    help += option.key;
+    help += "=";
+    help += option.allowed();
+    help += "\n";
+  }
+  return help;
+}
+
+}  // namespace disflow::host
