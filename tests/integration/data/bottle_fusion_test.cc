@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+
+#include "depth_png.h"
+#include "disflow/depth/depth_reader.h"
+#include "disflow/field/distance_query.h"
+#include "disflow/tracker.h"
+#include "surface_mesh.h"
+#include "test_data.h"
+
+namespace disflow::test {
+namespace {
+
+namespace fs = std::filesystem;
+using Limits = profiles::Dense;
+
+constexpr float kUnit_m = 1e-4F;
+
+/// Cameras 1 to 4 of the recording.
+constexpr std::array<PinholeCamera, 4> kCameras = {{{570.9361F, 570.9376F, 306.8789F, 238.8476F},
+                                                    {572.3318F, 572.3316F, 309.9968F, 230.6296F},
+                                                    {568.9403F, 568.9419F, 308.4583F, 225.8232F},
+                                                    {567.9881F, 567.9995F, 310.5243F, 223.9443F}}};
+
+/// One image of the turntable with its known pose.
+struct View {
+  DepthPng image;
+  std::vector<std::uint8_t>
+      mask;  ///< The images are masked already: all that is there is the bottle.
+  PinholeCamera camera;
+  PoseObjectFromCamera T_oc;
+};
+
+/// The k-th image's number and camera, in the order of the poses: 93, 102, ..., 354, 6, 15,
+/// ..., 87.
+fs::path ImageName(int k) {
+  constexpr std::array<int, 6> kCameraCycle = {1, 2, 3, 4, 3, 2};
+  const int number = k < 30 ? 93 + 9 * k : 6 + 9 * (k - 30);
+  return "frame" + std::to_string(number) + "_cam" +
+         std::to_string(kCameraCycle[static_cast<std::size_t>(k % 6)]) + ".png";
+}
+
+std::vector<View> LoadViews(const fs::path& folder) {
+  std::vector<View> views;
+  std::ifstream poses(folder / "pose" / "poses.txt");
+  std::array<float, 16> p{};
+  const auto read_pose = [&] {
+    for (float& value : p) poses >> value;
+    return poses.good();
+  };
+  for (int k = 0; read_pose(); ++k) {
+    Mat3 rotation;
+    rotation << p[0], p[4], p[8], p[1], p[5], p[9], p[2], p[6], p[10];
+    const fs::path name = ImageName(k);
+    const char camera = name.string()[name.string().find("cam") + 3];
+    DepthPng image = ReadDepthPng(folder / "masked_depth" / name);
+    std::vector<std::uint8_t> mask(image.pixels.size());
+    std::transform(image.pixels.begin(), image.pixels.end(), mask.begin(), [](std::uint16_t depth) {
+      return static_cast<std::uint8_t>(depth > 0 ? 255 : 0);
+    });
+    views.push_back({std::move(image), std::move(mask),
+                     kCameras[static_cast<std::size_t>(camera - '1')],
+                     PoseObjectFromCamera(rotation, Vec3(p[3], p[7], p[11])).Normalized()});
+  }
+  return views;
+}
+
+DepthFrame FrameOf(const View& view, int k) {
+  DepthFrame frame;
+  frame.depth = {view.image.pixels.data(), view.image.width_px,
+                 view.image.height_px,     view.image.width_px * std::ptrdiff_t{2},
+                 DepthFormat::kUint16,     kUnit_m};
+  frame.mask = {view.mask.data(), view.image.width_px, view.image.height_px, view.image.width_px};
+  frame.camera = view.camera;
+  frame.stamp_ns = std::int64_t{1'000'000'000} * (k + 1);
+  return frame;
+}
+
+Config FusionConfig() {
+  Config config;
+  // Depth comes in steps of 1/8 px of disparity, so that small windows look free of noise.
+  config.sampler.inverse_depth_std_per_m = 1.2e-3F;
+  config.sampler.target_blocks = 800;
+  config.field.retrain_budget = 1000;
+  config.field.fuse_budget = 5000;
+  return config;
+}
+
+/// Distances of a view's points to the fused surface, every fourth pixel.
+std::vector<float> Distances(const View& view, DistanceQuerier<Limits>& querier) {
+  std::vector<float> distances_m;
+  const DepthFrame frame = FrameOf(view, 0);
+  const DepthReader depth(frame.depth, 0.1F, 4.0F);
+  for (int v = 0; v < view.image.height_px; v += 4) {
+    for (int u = 0; u < view.image.width_px; u += 4) {
+      const float depth_m = depth.At(u, v);
+      if (depth_m <= 0.0F) continue;
+      const Vec3 x_o = view.T_oc * view.camera.BackProject(static_cast<float>(u),
+                                                           static_cast<float>(v), depth_m);
+      const auto query = querier.Query(x_o);
+      if (query.ok()) distances_m.push_back(std::abs(query.value.distance_m));
+    }
+  }
+  std::sort(distances_m.begin(), distances_m.end());
+  return distances_m;
+}
+
+TEST(BottleFusion, FortyViewsWithKnownPoses_BecomeOneBottle) {
+  const fs::path folder = TestData("bigbird_detergent");
+  DISFLOW_SKIP_WITHOUT(folder);
+  const std::vector<View> views = LoadViews(folder);
+  ASSERT_EQ(views.size(), 40U);
+
+  static Tracker<Limits> tracker(FusionConfig());
+  Estimate estimate;
+  for (std::size_t k = 0; k < views.size(); ++k) {
+    ASSERT_EQ(tracker.Fuse(FrameOf(views[k], static_cast<int>(k)), views[k].T_oc, estimate),
+              Status::kOk)
+        << k;
+  }
+
+  static GpWorkspace<Limits::kMaxTrainingSamples> scratch;
+  DistanceQuerier<Limits> querier(tracker.field(), scratch, 0.01F);
+  for (const View& view : views) {
+    const std::vector<float> distances_m = Distances(view, querier);
+    ASSERT_FALSE(distances_m.empty());
+    EXPECT_LT(distances_m[distances_m.size() / 2], 0.0015F);
+    EXPECT_LT(distances_m[distances_m.size() * 9 / 10], 0.004F);
+  }
+
+  static SurfaceWorkspace<Limits> workspace;
+  apps::SurfaceMesh mesh;
+  SurfaceOptions options;
+  options.min_observations = 2;
+  ASSERT_TRUE(ExtractSurface(tracker.field(), options, workspace, mesh).ok());
+  Vec3 low = mesh.vertices().front().position_m;
+  Vec3 high = low;
+  for (const SurfaceVertex& vertex : mesh.vertices()) {
+    low = low.cwiseMin(vertex.position_m);
+    high = high.cwiseMax(vertex.position_m);
+  }
+  EXPECT_NEAR((high - low).maxCoeff(), 0.27F, 0.03F) << "the bottle's height";
+  const std::string ply = mesh.FormatPly();
+  std::ofstream(DISFLOW_OUTPUT "/bottle.ply", std::ios::binary)
+      .write(ply.data(), static_cast<std::streamsize>(ply.size()));
+}
+
+}  // namespace
+}  // namespace disflow::test
