@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "disflow/host/open_sensor.h"
 
-#include "disflow/host/obj_file.h"
 #include "disflow/host/replay_sensor.h"
+#include "disflow/host/simulated_object.h"
 #include "disflow/host/uri.h"
 
 namespace disflow::host {
@@ -21,21 +21,13 @@ Fault OpenSimulation(const Uri& uri, Sensor& sensor) {
   SimulationOptions options;
   if (const Fault fault = ParseSimulationUri(uri, options); !fault.ok()) return fault;
   TriangleMesh mesh;
-  if (const Fault fault = LoadSimulatedMesh(options, mesh); !fault.ok()) return fault;
+  if (const Fault fault = LoadSimulatedObject(options, mesh); !fault.ok()) return fault;
   auto& simulated = sensor.Emplace<SimulatedSensor>(options, std::move(mesh));
   sensor.set_simulated(&simulated);
   return simulated.Open();
 }
 
 }  // namespace
-
-Fault LoadSimulatedMesh(const SimulationOptions& options, TriangleMesh& mesh) {
-  if (options.object != ObjectKind::kObjFile) {
-    mesh = MakeObjectMesh(options.object);
-    return {};
-  }
-  return ReadObj(options.obj_file, mesh);
-}
 
 Fault OpenSensor(std::string_view address, Sensor& sensor) {
   Uri uri;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "disflow/hal/depth_sensor.h"
-#include "disflow/host/png_file.h"
+#include "disflow/host/png_image.h"
 #include "disflow/host/sequence_layout.h"
 #include "disflow/host/uri.h"
 
@@ -42,8 +42,8 @@ class ReplaySensor final : public hal::DepthSensor {
   SequenceLayout layout_;
   std::string name_;
   std::vector<float> depth_m_;
-  GreyImage depth_png_;
-  GreyImage mask_png_;
+  GrayImage depth_png_;
+  GrayImage mask_png_;
   std::vector<std::uint8_t> mask_;
   hal::SensorCounters counters_;
   std::size_t next_ = 0;

@@ -34,9 +34,6 @@ class Sensor {
   SimulatedSensor* simulated_ = nullptr;
 };
 
-/// The mesh that a simulation shows: procedural, or read from options.obj_file.
-[[nodiscard]] hal::Fault LoadSimulatedMesh(const SimulationOptions& options, TriangleMesh& mesh);
-
 /// Makes and opens the sensor that an address names: `replay:DIR?…` or `sim:OBJECT?…`.
 /// @return kInvalidUri for an unknown scheme, key or value; else what opening says.
 [[nodiscard]] hal::Fault OpenSensor(std::string_view address, Sensor& sensor);

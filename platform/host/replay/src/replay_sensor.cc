@@ -69,7 +69,7 @@ Fault ReplaySensor::DoOpen() noexcept try {
   }
   if (layout_.width_px == 0) {
     // A folder of PNG images does not say its size: the first image does.
-    if (const Fault fault = ReadPng(layout_.frames.front().depth_file, depth_png_); !fault.ok())
+    if (const Fault fault = ReadGrayPng(layout_.frames.front().depth_file, depth_png_); !fault.ok())
       return fault;
     layout_.width_px = depth_png_.width_px;
     layout_.height_px = depth_png_.height_px;
@@ -115,16 +115,15 @@ Fault ReplaySensor::ReadDepth(const SequenceFrame& source, DepthFrame& frame) {
                    DepthFormat::kFloat32, 0.001F};
     return {};
   }
-  Fault fault = ReadPng(source.depth_file, depth_png_);
+  Fault fault = ReadGrayPng(source.depth_file, depth_png_);
   // A file that vanished or is no image is this frame's loss, not the sequence's.
   if (fault.status == Status::kNotFound || fault.status == Status::kUnsupported)
     fault.status = Status::kCorrupt;
   if (!fault.ok()) return fault;
-  if (depth_png_.bits != 16 || depth_png_.width_px != layout_.width_px ||
-      depth_png_.height_px != layout_.height_px) {
-    return MakeFault(Status::kCorrupt, "%s: %d x %d of %d bits; the sequence is %d x %d of 16 bits",
+  if (depth_png_.width_px != layout_.width_px || depth_png_.height_px != layout_.height_px) {
+    return MakeFault(Status::kCorrupt, "%s: %d x %d pixels; the sequence has %d x %d",
                      source.depth_file.c_str(), depth_png_.width_px, depth_png_.height_px,
-                     depth_png_.bits, layout_.width_px, layout_.height_px);
+                     layout_.width_px, layout_.height_px);
   }
   frame.depth = {depth_png_.pixels.data(), layout_.width_px,
                  layout_.height_px,        static_cast<std::ptrdiff_t>(layout_.width_px) * 2,
@@ -164,7 +163,7 @@ Fault ReplaySensor::ReadMask(const SequenceFrame& source, DepthFrame& frame) {
   if (source.mask_file.empty()) {
     ++held_masks_;
   } else {
-    Fault fault = ReadPng(source.mask_file, mask_png_);
+    Fault fault = ReadGrayPng(source.mask_file, mask_png_);
     if (fault.status == Status::kNotFound || fault.status == Status::kUnsupported)
       fault.status = Status::kCorrupt;
     if (!fault.ok()) return fault;
