@@ -66,7 +66,7 @@ for object in bottle box; do
   folder=$out/$object
   mkdir -p "$folder"
   echo "== $object: simulating 300 frames"
-  "$bin/disflow_sim" "$folder/sequence" --object "$object" --motion fast --noise d415 --seed 1 --frames 300
+  "$bin/disflow_sim" "$folder/sequence" --object "$object" --motion fast --noise d415 --seed 1 --frames 300 --force
   echo "== $object: tracking"
   "$bin/disflow_track" --sensor "replay:$folder/sequence" --csv "$folder/trajectory.csv" --mesh "$folder/mesh.ply"
   echo "== $object: evaluating"

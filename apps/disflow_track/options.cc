@@ -45,13 +45,13 @@ void AddInput(CLI::App& app, Options& options, SettingSources& settings) {
   app.add_option("--rate", options.rate,
                  "max: as fast as possible; realtime: at the pace of the capture stamps [max; a "
                  "live sensor is always realtime]")
-      ->transform(CLI::CheckedTransformer(kRates))
+      ->transform(CLI::CheckedTransformer(kRates).description(""))
       ->type_name("max|realtime");
   app.add_option("--frames", options.frames, "Stop after this many frames [all]")
-      ->check(CLI::PositiveNumber)
+      ->check(CLI::Validator(CLI::PositiveNumber).description(""))
       ->type_name("N");
   app.add_option("--profile", options.profile, "Memory and image size, see docs/memory.md [edge]")
-      ->transform(CLI::CheckedTransformer(kProfiles))
+      ->transform(CLI::CheckedTransformer(kProfiles).description(""))
       ->type_name("micro|edge|dense");
   app.add_option("--config", settings.file, "Settings, TOML; --print-config writes one")
       ->type_name("FILE");
@@ -67,14 +67,14 @@ void AddOutput(CLI::App& app, Options& options) {
       ->allow_extra_args(false);
   app.add_option("--id", options.object_index,
                  "Object index on the links, added to the component id [0]")
-      ->check(CLI::Range(0, int{hal::mavlink::kMaxObjectIndex}))
+      ->check(CLI::Range(0, int{hal::mavlink::kMaxObjectIndex}).description(""))
       ->type_name("N");
   app.add_option("--csv", options.csv, "Write the trajectory")->type_name("FILE");
   app.add_option("--mesh", options.mesh,
                  "Write the surface at the end: binary PLY, coloured by uncertainty (dark = "
                  "certain), std_m in metres")
       ->type_name("FILE");
-  app.add_option("--record", options.record, "Write the frames as a sequence for replay:")
+  app.add_option("--record", options.record, "Write the frames as a sequence for replay:DIR")
       ->type_name("DIR");
   app.add_flag("--headless", options.headless, "No live status line");
   app.add_flag("!--no-timing", options.timing,

@@ -6,11 +6,10 @@
 #include <vector>
 
 #include "console.h"
-#include "disflow/hal/depth_sensor.h"
+#include "disflow/host/sequence_writer.h"
 #include "frame_result.h"
 #include "options.h"
 #include "output_file.h"
-#include "recording.h"
 #include "surface_mesh.h"
 #include "telemetry_output.h"
 #include "trajectory_csv.h"
@@ -23,7 +22,7 @@ class Outputs {
  public:
   /// Opens all that was asked for, so that a run never ends with nowhere to put its result.
   /// @throws Failure kWrongUsage, kOutputFailed; files that existed are then unchanged.
-  Outputs(const Options& options, const hal::DepthSensor& sensor, Console& console);
+  Outputs(const Options& options, Console& console);
 
   /// @param frame The input frame; null if it could not be read.
   void Deliver(const FrameResult& result, const DepthFrame* frame, std::int64_t age_ns,
@@ -39,14 +38,17 @@ class Outputs {
   [[nodiscard]] const std::vector<std::string>& written() const noexcept { return written_; }
 
  private:
+  void StartRecording(const std::string& folder);
+  [[nodiscard]] hal::Fault Record(const DepthFrame& frame);
   void Fail(const std::string& message);
 
   Console& console_;
   TelemetryOutput telemetry_;
   std::optional<AtomicFile> mesh_;
-  std::optional<Recording> recording_;
+  std::optional<host::SequenceWriter> recording_;  ///< Empty again after a failure.
   std::optional<TrajectoryCsv> csv_;
   std::string mesh_path_;
+  std::string record_path_;
   std::vector<std::string> written_;
   bool complete_ = true;
 };

@@ -93,8 +93,10 @@ ExitStatus JudgeInput(const FrameSource& source, const RunReport& report, bool l
 }
 
 void OpenSensor(const std::string& uri, host::Sensor& sensor) {
-  sensor.s.dir = uri.substr(7);
-  (void)sensor.get()->Open();
+  const hal::Fault fault = host::OpenSensor(uri, sensor);
+  if (fault.ok()) return;
+  const bool is_usage = fault.status == Status::kInvalidUri;
+  throw Failure(is_usage ? kWrongUsage : kInputFailed, fault.message);
 }
 
 template <class Limits>
@@ -104,7 +106,7 @@ ExitStatus RunWith(const Options& options) {
   MonotonicClock clock;
   host::Sensor sensor;
   OpenSensor(options.sensor, sensor);
-  Outputs outputs(options, *sensor.get(), console);
+  Outputs outputs(options, console);
   FrameSource source(*sensor.get(), clock, options.rate, options.frames, console);
   RunReport report;
 
