@@ -6,6 +6,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <limits>
+#include <ostream>
 #include <random>
 #include <string>
 #include <type_traits>
@@ -31,7 +32,12 @@ struct Setting {
   std::string name;
   GpHyperparameters hyper;
   int count;
+  /// What single precision may cost. Grows with the length scale, as samples that are close to each
+  /// other tell less apart; stays within 2 % of the posterior's own standard deviation.
+  double rounding_m;
 };
+
+void PrintTo(const Setting& setting, std::ostream* out) { *out << setting.name; }
 
 /// LocalGp against the same Gaussian process, dense and in double precision.
 class AgainstDenseGp : public ::testing::TestWithParam<Setting> {
@@ -49,16 +55,17 @@ class AgainstDenseGp : public ::testing::TestWithParam<Setting> {
   }
 
   GpHyperparameters hyper_ = GetParam().hyper;
+  double rounding_m_ = GetParam().rounding_m;
   Workspace workspace_;
 };
 
 TEST_P(AgainstDenseGp, Mean_IsTheSame) {
-  ForEachPatch([](const Patch& patch, const Gp& gp, const DenseGp& dense) {
+  ForEachPatch([this](const Patch& patch, const Gp& gp, const DenseGp& dense) {
     for (const Vec3& x_m : QueryPoints(patch)) {
       const Prediction mean = Predict(gp, x_m);
       const Vec4d exact = dense.Mean(x_m.cast<double>());
-      EXPECT_NEAR(static_cast<double>(mean.distance_m), exact(0), 3e-6);
-      EXPECT_LT((mean.gradient.cast<double>() - exact.tail<3>()).norm(), 1e-4);
+      EXPECT_NEAR(static_cast<double>(mean.distance_m), exact(0), rounding_m_);
+      EXPECT_LT((mean.gradient.cast<double>() - exact.tail<3>()).norm(), 3e-4);
     }
   });
 }
@@ -87,13 +94,13 @@ TEST_P(AgainstDenseGp, SurfaceVariance_IsThatAtTheCentre) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Settings, AgainstDenseGp,
-                         ::testing::Values(Setting{"Default", kHyper, 16},
-                                           Setting{"FewSamples", kHyper, 5},
-                                           Setting{"OneSample", kHyper, 1},
-                                           Setting{"ShortScale", {0.02F, 0.25F}, 16},
-                                           Setting{"LongScale", {0.15F, 0.25F}, 16},
-                                           Setting{"LoosePrior", {0.06F, 1.0F}, 16},
-                                           Setting{"TightPrior", {0.06F, 0.05F}, 16}),
+                         ::testing::Values(Setting{"Default", kHyper, 16, 2e-6},
+                                           Setting{"FewSamples", kHyper, 5, 2e-6},
+                                           Setting{"OneSample", kHyper, 1, 2e-6},
+                                           Setting{"ShortScale", {0.02F, 0.25F}, 16, 2e-6},
+                                           Setting{"LongScale", {0.15F, 0.25F}, 16, 1e-5},
+                                           Setting{"LoosePrior", {0.06F, 1.0F}, 16, 5e-6},
+                                           Setting{"TightPrior", {0.06F, 0.05F}, 16, 2e-6}),
                          [](const auto& setting) { return setting.param.name; });
 
 TEST(LocalGp, GradientOfMean_IsTheMeansDerivative) {

@@ -6,8 +6,9 @@
 
 /// @file
 /// Elementary functions for the hot loop of the local GPs. Free of branches, calls, tables and
-/// processor-specific estimates: compilers vectorise loops over them on every target, and every
-/// processor gives the same bits (the instruction behind Eigen's packet sqrt, rsqrtps, does not).
+/// processor-specific estimates: compilers vectorise loops over them on every target, and without
+/// contraction to fused operations (as core is built) every processor gives the same bits (the
+/// instruction behind Eigen's packet sqrt, rsqrtps, does not).
 
 namespace disflow {
 
