@@ -76,12 +76,13 @@ struct RegistrationConfig {
   int hypothesis_iterations = 3;
   int score_points = 120;
   float covariance_inflation = 4.0F;
+  float drift_inflation = 10.0F;
 };
 
 /// Velocity at the capture time.
 struct TwistFilterConfig {
-  float linear_jerk_psd = 60.0F;
-  float angular_jerk_psd = 3000.0F;
+  float linear_jerk_psd = 30.0F;
+  float angular_jerk_psd = 500.0F;
 };
 
 /// When to trust, doubt and give up the pose.

@@ -195,7 +195,10 @@ Status Tracker<Limits>::Conclude(const DepthFrame& frame, Status observed, const
     evidence.registered = false;
   }
   monitor_.Update(evidence, frame.stamp_ns);
-  estimate.pose_covariance = accepted ? covariance : twist_filter_.pose_covariance();
+  // The twist filter sees differences between frames, in which the drift of the model cancels; the
+  // pose does not.
+  estimate.pose_covariance = config_.registration.drift_inflation *
+                             (accepted ? covariance : twist_filter_.pose_covariance());
   if (observed != Status::kOk) return observed;
   return accepted ? Status::kOk : Status::kRegistrationFailed;
 }
