@@ -10,26 +10,25 @@
 
 namespace disflow::host {
 
-OccludingArm::OccludingArm(const Workspace& workspace, double object_radius_m, std::uint64_t seed)
+OccludingArm::OccludingArm(double object_radius_m, std::uint64_t seed)
     : object_radius_m_(object_radius_m) {
   RandomNumbers random(seed, 7);
-  constexpr double kGap_m = 0.05;
-  const double nearest_m = workspace.centre_m.z() - workspace.half_extent_m.z() - object_radius_m;
-  depth_m_ = std::max(0.2, nearest_m - kGap_m);
   sweep_rps_ = 2.0 * std::numbers::pi * random.Uniform(0.22, 0.32);
   lean_rad_ = random.Uniform(-0.3, 0.3);
-  // In the image about a third as wide as the object's sphere.
-  const double radius_m = 0.3 * object_radius_m * depth_m_ / workspace.centre_m.z();
-  mesh_ = MakeCapsule(radius_m, 1.0);
+  // About a third as wide as the object's sphere.
+  radius_m_ = 0.28 * object_radius_m;
+  mesh_ = MakeCapsule(radius_m_, 1.0);
 }
 
 Transform<Camera, Object, double> OccludingArm::PoseAt(
     double time_s, const Transform<Camera, Object, double>& T_co) const {
   const Vec3d& object = T_co.translation();
-  constexpr double kSweepRadii = 2.0;
+  constexpr double kSweepRadii = 2.4;
+  constexpr double kGap_m = 0.02;
   const double aside_m = kSweepRadii * object_radius_m_ * std::cos(sweep_rps_ * time_s);
   const double tip_above_m = 0.6 * object_radius_m_;
-  const Vec3d tip = (object + Vec3d(aside_m, -tip_above_m, 0.0)) * (depth_m_ / object.z());
+  const double depth_m = std::max(0.2, object.z() - object_radius_m_ - radius_m_ - kGap_m);
+  const Vec3d tip = (object + Vec3d(aside_m, -tip_above_m, 0.0)) * (depth_m / object.z());
   Mat3d upright;
   upright << 1, 0, 0, 0, 0, -1, 0, 1, 0;  // the capsule's +z is the camera's up
   return {Mat3d(ExpSo3(Vec3d(0.0, 0.0, lean_rad_)) * upright), tip};

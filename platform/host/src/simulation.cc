@@ -76,7 +76,7 @@ Simulation::Simulation(const SimulationOptions& options, TriangleMesh mesh)
   if (options.camera == CameraKind::kMoving) {
     camera_motion_.emplace(workspace_.centre_m.z(), options.seed);
   }
-  if (options.occluder == OccluderKind::kArm) arm_.emplace(workspace_, radius_m_, options.seed);
+  if (options.occluder == OccluderKind::kArm) arm_.emplace(radius_m_, options.seed);
 }
 
 FrameTruth Simulation::TruthAt(int index) const {

@@ -156,7 +156,7 @@ std::string ObjectName(const SimulationOptions& options) {
 std::string SimulationOptionsHelp() {
   std::string help;
   for (const Option& option : kOptions) {
-    help += "  ";
+    help += "                 ";
     help += option.key;
     help += "=";
     help += option.allowed();

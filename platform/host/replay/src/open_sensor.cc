@@ -42,10 +42,12 @@ std::string SensorHelp() {
   return "  replay:DIR   a recorded sequence: the Fast-YCB layout, or 16-bit PNG depth images with "
          "cam_K.json or\n"
          "               camera-intrinsics.txt. Options: mask=gt|none|SET (a folder in masks/), "
-         "scale=0.001 (metres per\n"
-         "               PNG unit), T_wc=poses (camera poses from T_wc.txt or pose/*.txt), "
-         "first=N, count=N\n"
-         "  sim:OBJECT   a simulated depth camera. " +
+         "object=NAME (whose masks),\n"
+         "               scale=0.001 (metres per PNG unit), K=fx,fy,cx,cy, T_wc=auto|poses|none "
+         "(camera poses from\n"
+         "               T_wc.txt or pose/*.txt), first=N, count=N\n"
+         "  sim:OBJECT   a simulated depth camera; OBJECT is box, bottle, can, doughnut or "
+         "obj:FILE. Options:\n" +
          SimulationOptionsHelp();
 }
 

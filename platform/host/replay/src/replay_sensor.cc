@@ -2,186 +2,186 @@
 #include "disflow/host/replay_sensor.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
-#include <filesystem>
-#include <memory>
+#include <exception>
 #include <utility>
+#include <vector>
 
-#include "disflow/host/option_value.h"
+#include "disflow/host/png_image.h"
+#include "float_depth_file.h"
+#include "sequence_index.h"
 
 namespace disflow::host {
 namespace {
 
 using hal::Fault;
-using hal::MakeFault;
 
-constexpr int kManyFrames = 100'000'000;
+constexpr double kMillimetres = 0.001;
 
-struct CloseFile {
-  void operator()(std::FILE* file) const { (void)std::fclose(file); }
-};
+/// A file of one frame that is missing or no image at all is that frame's loss only.
+Fault AsLostFrame(Fault fault) {
+  if (!fault.ok() && fault.status != Status::kTruncated) fault.status = Status::kCorrupt;
+  return fault;
+}
 
 }  // namespace
 
-Fault ParseReplayUri(const Uri& uri, ReplayOptions& options) {
-  ReplayOptions parsed;
-  parsed.directory = uri.path;
-  if (parsed.directory.empty())
-    return MakeFault(Status::kInvalidUri, "replay: wants a folder, e.g. replay:recording");
-  for (const auto& [key, value] : uri.query) {
-    Fault fault;
-    if (key == "mask") {
-      parsed.mask = value;
-      if (value.empty() || value.find('/') != std::string::npos) {
-        fault = MakeFault(Status::kInvalidUri,
-                          "mask=%s: want gt, none or the name of a set in masks/", value.c_str());
-      }
-    } else if (key == "scale") {
-      fault = ParseNumber<double>(key, value, 1e-7, 1.0, parsed.scale_m);
-    } else if (key == "T_wc") {
-      const Choice<bool> choices[] = {{"poses", true}, {"none", false}};
-      fault = ParseChoice<bool>(key, value, choices, parsed.use_camera_poses);
-    } else if (key == "first") {
-      fault = ParseNumber<int>(key, value, 0, kManyFrames, parsed.first);
-    } else if (key == "count") {
-      fault = ParseNumber<int>(key, value, 0, kManyFrames, parsed.count);
-    } else {
-      fault =
-          MakeFault(Status::kInvalidUri,
-                    "replay: knows no %s; allowed: mask, scale, T_wc, first, count", key.c_str());
-    }
-    if (!fault.ok()) return fault;
+/// The open sequence and its buffers, which are reused from frame to frame.
+struct ReplaySensor::State {
+  explicit State(const ReplayOptions& replay_options) : options(replay_options) {}
+
+  [[nodiscard]] Fault FindSize();
+  [[nodiscard]] Fault ReadFrame(const RecordedFrame& source, DepthFrame& frame);
+  [[nodiscard]] Fault ReadDepth(const RecordedFrame& source, DepthFrame& frame);
+  [[nodiscard]] Fault ReadMask(const RecordedFrame& source, DepthFrame& frame);
+
+  const ReplayOptions& options;
+  SequenceIndex index;
+  int width_px = 0;
+  int height_px = 0;
+  FloatImage depth_float;
+  GrayImage depth_png;
+  GrayImage mask_png;
+  std::vector<std::uint8_t> mask;
+  int mask_width_px = 0;
+  int mask_height_px = 0;
+  int held_masks = 0;
+  std::size_t next = 0;
+  hal::SensorCounters counters;
+  bool open = false;
+};
+
+/// The camera's file may not say the image size: then the first readable image does.
+Fault ReplaySensor::State::FindSize() {
+  width_px = index.camera.width_px;
+  height_px = index.camera.height_px;
+  Fault fault;
+  for (std::size_t i = 0; i < index.frames.size() && width_px == 0; ++i) {
+    DepthFrame frame;
+    fault = ReadDepth(index.frames[i], frame);
+    if (!fault.ok()) continue;
+    width_px = frame.depth.width_px;
+    height_px = frame.depth.height_px;
   }
-  options = parsed;
-  return {};
+  return width_px > 0 ? Fault{} : fault;
 }
 
-ReplaySensor::ReplaySensor(ReplayOptions options) : options_(std::move(options)) {}
-
-Fault ReplaySensor::DoOpen() noexcept try {
-  if (open_) return {};
-  if (const Fault fault = FindSequence(options_, layout_); !fault.ok()) return fault;
-  if (layout_.frames.empty()) {
-    return MakeFault(Status::kNotFound, "%s: first=%d leaves no frame to replay",
-                     options_.directory.c_str(), options_.first);
-  }
-  if (layout_.width_px == 0) {
-    // A folder of PNG images does not say its size: the first image does.
-    if (const Fault fault = ReadGrayPng(layout_.frames.front().depth_file, depth_png_); !fault.ok())
-      return fault;
-    layout_.width_px = depth_png_.width_px;
-    layout_.height_px = depth_png_.height_px;
-  }
-  const auto pixels =
-      static_cast<std::size_t>(layout_.width_px) * static_cast<std::size_t>(layout_.height_px);
-  depth_m_.resize(layout_.float_depth ? pixels : 0);
-  mask_.assign(pixels, 0);
-  name_ =
-      "replay of " + options_.directory + ", " + std::to_string(layout_.frames.size()) + " frames";
-  next_ = 0;
-  open_ = true;
-  return {};
-} catch (const std::exception& problem) {
-  return MakeFault(Status::kIoError, "%s: %s", options_.directory.c_str(), problem.what());
-}
-
-Fault ReplaySensor::DoNext(std::int64_t, DepthFrame& frame) noexcept try {
-  if (!open_)
-    return MakeFault(Status::kNotOpen, "%s: the replay is not open", options_.directory.c_str());
-  if (next_ == layout_.frames.size())
-    return MakeFault(Status::kEndOfStream, "%s: all frames played", options_.directory.c_str());
-  const SequenceFrame& source = layout_.frames[next_++];
+Fault ReplaySensor::State::ReadFrame(const RecordedFrame& source, DepthFrame& frame) {
   frame = DepthFrame{};
-  frame.camera = layout_.camera;
+  frame.camera = index.camera.camera;
   frame.stamp_ns = source.stamp_ns;
-  frame.has_T_wc = source.has_T_wc;
+  frame.has_T_wc = index.has_T_wc;
   frame.T_wc = source.T_wc;
   Fault fault = ReadDepth(source, frame);
-  if (fault.ok()) fault = ReadMask(source, frame);
-  ++(fault.ok() ? counters_.frames : counters_.corrupt);
-  return fault;
-} catch (const std::exception& problem) {
-  ++counters_.corrupt;
-  return MakeFault(Status::kCorrupt, "%s: %s", options_.directory.c_str(), problem.what());
+  if (fault.ok() && (frame.depth.width_px != width_px || frame.depth.height_px != height_px)) {
+    fault = hal::MakeFault(Status::kCorrupt, "%s: is %d x %d pixels, the sequence is %d x %d",
+                           source.depth.c_str(), frame.depth.width_px, frame.depth.height_px,
+                           width_px, height_px);
+  }
+  if (fault.ok() && index.has_masks) fault = ReadMask(source, frame);
+  return AsLostFrame(fault);
 }
 
-Fault ReplaySensor::ReadDepth(const SequenceFrame& source, DepthFrame& frame) {
-  if (layout_.float_depth) {
-    if (const Fault fault = ReadFloat(source.depth_file); !fault.ok()) return fault;
-    frame.depth = {depth_m_.data(),       layout_.width_px,
-                   layout_.height_px,     static_cast<std::ptrdiff_t>(layout_.width_px) * 4,
-                   DepthFormat::kFloat32, 0.001F};
-    return {};
-  }
-  Fault fault = ReadGrayPng(source.depth_file, depth_png_);
-  // A file that vanished or is no image is this frame's loss, not the sequence's.
-  if (fault.status == Status::kNotFound || fault.status == Status::kUnsupported)
-    fault.status = Status::kCorrupt;
-  if (!fault.ok()) return fault;
-  if (depth_png_.width_px != layout_.width_px || depth_png_.height_px != layout_.height_px) {
-    return MakeFault(Status::kCorrupt, "%s: %d x %d pixels; the sequence has %d x %d",
-                     source.depth_file.c_str(), depth_png_.width_px, depth_png_.height_px,
-                     layout_.width_px, layout_.height_px);
-  }
-  frame.depth = {depth_png_.pixels.data(), layout_.width_px,
-                 layout_.height_px,        static_cast<std::ptrdiff_t>(layout_.width_px) * 2,
-                 DepthFormat::kUint16,     static_cast<float>(options_.scale_m)};
-  return {};
-}
-
-/// u64 width, u64 height (little endian), then float32 metres, row-major.
-Fault ReplaySensor::ReadFloat(const std::string& file) {
-  const std::unique_ptr<std::FILE, CloseFile> handle(std::fopen(file.c_str(), "rb"));
-  if (!handle) return MakeFault(Status::kCorrupt, "%s: %s", file.c_str(), std::strerror(errno));
-  std::uint64_t size[2] = {};
-  if (std::fread(size, sizeof size[0], 2, handle.get()) != 2) {
-    return MakeFault(Status::kTruncated, "%s: ends within its header", file.c_str());
-  }
-  if (size[0] != static_cast<std::uint64_t>(layout_.width_px) ||
-      size[1] != static_cast<std::uint64_t>(layout_.height_px)) {
-    return MakeFault(Status::kCorrupt, "%s: header says %llu x %llu, cam_K.json says %d x %d",
-                     file.c_str(), static_cast<unsigned long long>(size[0]),
-                     static_cast<unsigned long long>(size[1]), layout_.width_px, layout_.height_px);
-  }
-  const std::size_t got = std::fread(depth_m_.data(), sizeof(float), depth_m_.size(), handle.get());
-  if (got != depth_m_.size()) {
-    return MakeFault(Status::kTruncated, "%s: ends after %zu of %zu pixels", file.c_str(), got,
-                     depth_m_.size());
-  }
-  if (std::fgetc(handle.get()) != EOF)
-    return MakeFault(Status::kCorrupt, "%s: longer than its size says", file.c_str());
-  return {};
-}
-
-Fault ReplaySensor::ReadMask(const SequenceFrame& source, DepthFrame& frame) {
-  const bool wanted = options_.mask != "none" &&
-                      std::any_of(layout_.frames.begin(), layout_.frames.end(),
-                                  [](const SequenceFrame& f) { return !f.mask_file.empty(); });
-  if (!wanted) return {};
-  if (source.mask_file.empty()) {
-    ++held_masks_;
+Fault ReplaySensor::State::ReadDepth(const RecordedFrame& source, DepthFrame& frame) {
+  DepthView& view = frame.depth;
+  Fault fault;
+  if (index.float_depth) {
+    fault = ReadFloatDepth(source.depth, depth_float);
+    view.data = depth_float.pixels.data();
+    view.width_px = depth_float.width_px;
+    view.height_px = depth_float.height_px;
+    view.format = DepthFormat::kFloat32;
   } else {
-    Fault fault = ReadGrayPng(source.mask_file, mask_png_);
-    if (fault.status == Status::kNotFound || fault.status == Status::kUnsupported)
-      fault.status = Status::kCorrupt;
-    if (!fault.ok()) return fault;
-    mask_.resize(mask_png_.pixels.size());
-    for (std::size_t i = 0; i < mask_.size(); ++i) mask_[i] = mask_png_.pixels[i] != 0 ? 255 : 0;
+    fault = ReadGrayPng(source.depth, depth_png);
+    view.data = depth_png.pixels.data();
+    view.width_px = depth_png.width_px;
+    view.height_px = depth_png.height_px;
+    view.format = DepthFormat::kUint16;
+    view.unit_m = static_cast<float>(options.unit_m.value_or(kMillimetres));
   }
-  // Its own size, right or wrong: the tracker compares it with the depth image's.
-  const bool read = mask_png_.width_px > 0;
-  const int width_px = read ? mask_png_.width_px : layout_.width_px;
-  frame.mask = {mask_.data(), width_px, read ? mask_png_.height_px : layout_.height_px, width_px};
+  view.stride_bytes = static_cast<std::ptrdiff_t>(view.width_px) * view.bytes_per_pixel();
+  return fault;
+}
+
+Fault ReplaySensor::State::ReadMask(const RecordedFrame& source, DepthFrame& frame) {
+  if (source.mask.empty()) {
+    ++held_masks;
+  } else {
+    Fault fault = ReadGrayPng(source.mask, mask_png);
+    // What there is of a cut mask would be taken for the whole object.
+    if (!fault.ok()) fault.status = Status::kCorrupt;
+    if (!fault.ok()) return fault;
+    mask.resize(mask_png.pixels.size());
+    std::transform(
+        mask_png.pixels.begin(), mask_png.pixels.end(), mask.begin(),
+        [](std::uint16_t value) { return static_cast<std::uint8_t>(value != 0 ? 255 : 0); });
+    mask_width_px = mask_png.width_px;
+    mask_height_px = mask_png.height_px;
+  }
+  frame.mask = {mask.data(), mask_width_px, mask_height_px, mask_width_px};
   return {};
 }
 
-void ReplaySensor::DoClose() noexcept { open_ = false; }
+ReplaySensor::ReplaySensor(ReplayOptions options)
+    : options_(std::move(options)), state_(std::make_unique<State>(options_)) {}
+
+ReplaySensor::~ReplaySensor() = default;
+
+int ReplaySensor::held_masks() const { return state_->held_masks; }
+
+Fault ReplaySensor::DoOpen() noexcept try {
+  State& state = *state_;
+  if (state.open) return {};
+  Fault fault = IndexSequence(options_, state.index);
+  if (fault.ok()) fault = state.FindSize();
+  if (!fault.ok()) return fault;
+  state.mask.assign(
+      static_cast<std::size_t>(state.width_px) * static_cast<std::size_t>(state.height_px), 0);
+  state.mask_width_px = state.width_px;
+  state.mask_height_px = state.height_px;
+  state.held_masks = 0;
+  state.next = 0;
+  state.counters = {};
+  name_ = "replay of " + options_.dir.string() + ", " + std::to_string(state.index.frames.size()) +
+          " frames";
+  state.open = true;
+  return {};
+} catch (const std::exception& error) {
+  return hal::MakeFault(Status::kIoError, "%s: %s", options_.dir.c_str(), error.what());
+}
+
+Fault ReplaySensor::DoNext(std::int64_t /*timeout_ns*/, DepthFrame& frame) noexcept try {
+  State& state = *state_;
+  if (!state.open) {
+    return hal::MakeFault(Status::kNotOpen, "%s: not open; call Open() first",
+                          options_.dir.c_str());
+  }
+  if (state.next == state.index.frames.size()) {
+    return hal::MakeFault(Status::kEndOfStream, "%s: the sequence is over", options_.dir.c_str());
+  }
+  Fault fault = state.ReadFrame(state.index.frames[state.next++], frame);
+  ++(fault.ok() ? state.counters.frames : state.counters.corrupt);
+  return fault;
+} catch (const std::exception& error) {
+  ++state_->counters.corrupt;
+  return hal::MakeFault(Status::kCorrupt, "%s: %s", options_.dir.c_str(), error.what());
+}
+
+void ReplaySensor::DoClose() noexcept { state_->open = false; }
 
 hal::SensorInfo ReplaySensor::DoInfo() const noexcept {
-  constexpr float kRate_hz = 30.0F;
-  return {name_.c_str(), layout_.width_px, layout_.height_px, kRate_hz, false};
+  const State& state = *state_;
+  hal::SensorInfo info;
+  info.name = name_.c_str();
+  info.width_px = state.width_px;
+  info.height_px = state.height_px;
+  if (const auto& frames = state.index.frames; frames.size() > 1) {
+    const auto duration_ns = static_cast<double>(frames.back().stamp_ns - frames.front().stamp_ns);
+    const auto intervals = static_cast<double>(frames.size() - 1);
+    if (duration_ns > 0.0) info.rate_hz = static_cast<float>(intervals * 1e9 / duration_ns);
+  }
+  return info;
 }
+
+hal::SensorCounters ReplaySensor::DoCounters() const noexcept { return state_->counters; }
 
 }  // namespace disflow::host

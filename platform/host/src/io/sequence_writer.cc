@@ -10,7 +10,7 @@
 #include <system_error>
 
 #include "disflow/host/png_image.h"
-#include "sequence_layout.h"
+#include "disflow/host/sequence_layout.h"
 
 namespace disflow::host {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "disflow/host/motion.h"
+#include "disflow/host/rigid_state.h"
 #include "disflow/host/triangle_mesh.h"
 
 namespace disflow::host {
@@ -12,7 +12,7 @@ namespace disflow::host {
 /// half of it. The first frame is free of it.
 class OccludingArm {
  public:
-  OccludingArm(const Workspace& workspace, double object_radius_m, std::uint64_t seed);
+  OccludingArm(double object_radius_m, std::uint64_t seed);
 
   [[nodiscard]] const TriangleMesh& mesh() const { return mesh_; }
   /// @param T_co The object, which the arm follows.
@@ -21,7 +21,7 @@ class OccludingArm {
 
  private:
   double object_radius_m_;
-  double depth_m_;
+  double radius_m_;
   double sweep_rps_;
   double lean_rad_;
   TriangleMesh mesh_;

@@ -7,13 +7,16 @@
 namespace disflow::host {
 
 inline constexpr const char* kCameraFile = "cam_K.json";
+inline constexpr const char* kIntrinsicsFile = "camera-intrinsics.txt";
 inline constexpr const char* kDataFile = "data.txt";
 inline constexpr const char* kDepthFolder = "depth";
+inline constexpr const char* kMaskedDepthFolder = "masked_depth";
 inline constexpr const char* kMaskFolder = "masks";
 inline constexpr const char* kTruthFolder = "gt";
 inline constexpr const char* kPoseFile = "gt/poses.txt";
 inline constexpr const char* kVelocityFile = "gt/velocities.txt";
 inline constexpr const char* kWorldPoseFile = "T_wc.txt";
+inline constexpr const char* kPoseFolder = "pose";
 inline constexpr const char* kDepthExtension = ".float";
 inline constexpr const char* kImageExtension = ".png";
 

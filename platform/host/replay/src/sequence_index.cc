@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sequence_index.h"
+
+#include <algorithm>
+#include <charconv>
+#include <map>
+#include <set>
+#include <system_error>
+
+#include "disflow/host/sequence_layout.h"
+#include "numbered_files.h"
+#include "text_table.h"
+#include "world_poses.h"
+
+namespace disflow::host {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr StampNs kNsPerS = 1'000'000'000;
+
+/// Decimal seconds to nanoseconds without a detour through double.
+bool ParseStamp(std::string_view text, StampNs& stamp_ns) {
+  const char* const end = text.data() + text.size();
+  std::int64_t seconds = 0;
+  auto [next, error] = std::from_chars(text.data(), end, seconds);
+  constexpr std::int64_t kMaxSeconds = 9'000'000'000;
+  if (error != std::errc{} || seconds < 0 || seconds > kMaxSeconds) return false;
+  stamp_ns = seconds * kNsPerS;
+  if (next == end) return true;
+  if (*next != '.') return false;
+  StampNs unit_ns = kNsPerS;
+  for (++next; next != end; ++next) {
+    if (*next < '0' || *next > '9') return false;
+    unit_ns /= 10;
+    stamp_ns += unit_ns * (*next - '0');
+  }
+  return true;
+}
+
+bool ParseIndex(std::string_view text, std::uint64_t& index) {
+  const char* const end = text.data() + text.size();
+  const auto [next, error] = std::from_chars(text.data(), end, index);
+  return error == std::errc{} && next == end;
+}
+
+hal::Fault ListDepth(const fs::path& dir, SequenceIndex& index, std::vector<NumberedFile>& files) {
+  hal::Fault fault = ListNumberedFiles(dir / kDepthFolder, kDepthExtension, files);
+  index.float_depth = !files.empty();
+  for (const char* folder : {kDepthFolder, kMaskedDepthFolder}) {
+    if (!fault.ok() || !files.empty()) break;
+    fault = ListNumberedFiles(dir / folder, kImageExtension, files);
+  }
+  if (!fault.ok() || !files.empty()) return fault;
+  return hal::MakeFault(Status::kNotFound,
+                        "%s: holds no depth/*.float, depth/*.png or masked_depth/*.png",
+                        dir.c_str());
+}
+
+/// The images that are there, at the usual rate.
+void ListByFiles(const std::vector<NumberedFile>& files, std::vector<RecordedFrame>& frames) {
+  constexpr StampNs kUsualRate_hz = 30;
+  for (const NumberedFile& file : files) {
+    RecordedFrame& frame = frames.emplace_back();
+    frame.number = file.number;
+    frame.depth = file.path;
+    // From one second on: a stamp of zero means "not set" to some programs.
+    const auto k = static_cast<StampNs>(frames.size() - 1);
+    frame.stamp_ns = kNsPerS + k * kNsPerS / kUsualRate_hz;
+  }
+}
+
+/// One frame per line of data.txt. An image that is listed and not there is a frame all the same,
+/// so that its loss is seen when it is read.
+hal::Fault ListByStamps(const fs::path& path, const std::vector<NumberedFile>& files,
+                        std::vector<RecordedFrame>& frames) {
+  TextTable table;
+  const hal::Fault fault = table.Read(path);
+  if (!fault.ok()) return fault;
+  std::map<std::uint64_t, const NumberedFile*> missing_line;
+  for (const NumberedFile& file : files) missing_line[file.number] = &file;
+  for (const TableRow& row : table.rows()) {
+    RecordedFrame& frame = frames.emplace_back();
+    if (row.fields.size() < 2 || !ParseIndex(row.fields[0], frame.number) ||
+        !ParseStamp(row.fields[1], frame.stamp_ns)) {
+      return table.LineFault(row, "an image number and a stamp in seconds are needed");
+    }
+    const auto found = missing_line.find(frame.number);
+    if (found != missing_line.end()) {
+      frame.depth = found->second->path;
+      missing_line.erase(found);
+    } else {
+      const NumberedFile& example = files.front();
+      frame.depth = example.path.parent_path() / (example.prefix + std::to_string(frame.number) +
+                                                  example.path.extension().string());
+    }
+  }
+  if (missing_line.empty()) return {};
+  return hal::MakeFault(Status::kCorrupt, "%s: has no line for %s", path.c_str(),
+                        missing_line.begin()->second->path.c_str());
+}
+
+std::string ListMaskSets(const fs::path& masks) {
+  std::set<std::string> names;
+  std::error_code error;
+  for (fs::directory_iterator entry(masks, error), end; !error && entry != end;
+       entry.increment(error)) {
+    names.insert(entry->path().filename().string());
+  }
+  std::string list;
+  for (const std::string& name : names) list += name + ", ";
+  return list + "none";
+}
+
+/// The object whose masks are used: the one asked for, or the only one.
+hal::Fault ChooseObject(const fs::path& folder, const std::vector<NumberedFile>& files,
+                        const std::string& wanted, std::string& prefix) {
+  std::set<std::string> prefixes;
+  for (const NumberedFile& file : files) prefixes.insert(file.prefix);
+  prefix = wanted.empty() ? *prefixes.begin() : wanted + "_";
+  if (prefixes.contains(prefix) && (prefixes.size() == 1 || !wanted.empty())) return {};
+  std::string list;
+  for (const std::string& name : prefixes) list.append(" ").append(name, 0, name.rfind('_'));
+  return hal::MakeFault(Status::kNotFound, "%s: choose with object=NAME one of:%s", folder.c_str(),
+                        list.c_str());
+}
+
+hal::Fault FindMasks(const ReplayOptions& options, SequenceIndex& index) {
+  const fs::path masks = options.dir / kMaskFolder;
+  const fs::path folder = masks / (options.mask_set.empty() ? "gt" : options.mask_set);
+  if (options.mask_set == "none" || (options.mask_set.empty() && !fs::exists(folder))) return {};
+  std::vector<NumberedFile> files;
+  hal::Fault fault = ListNumberedFiles(folder, kImageExtension, files);
+  if (!fault.ok()) return fault;
+  if (files.empty()) {
+    return hal::MakeFault(Status::kNotFound, "%s: holds no masks; available: %s", folder.c_str(),
+                          ListMaskSets(masks).c_str());
+  }
+  std::string prefix;
+  fault = ChooseObject(folder, files, options.object, prefix);
+  if (!fault.ok()) return fault;
+  std::map<std::uint64_t, fs::path> by_number;
+  for (const NumberedFile& file : files) {
+    if (file.prefix == prefix) by_number[file.number] = file.path;
+  }
+  for (RecordedFrame& frame : index.frames) {
+    const auto found = by_number.find(frame.number);
+    if (found != by_number.end()) frame.mask = found->second;
+  }
+  index.has_masks = true;
+  return {};
+}
+
+hal::Fault TakeRange(const ReplayOptions& options, std::vector<RecordedFrame>& frames) {
+  if (static_cast<std::size_t>(options.first) >= frames.size()) {
+    return hal::MakeFault(Status::kInvalidUri, "first=%d, but %s has only %zu images",
+                          options.first, options.dir.c_str(), frames.size());
+  }
+  frames.erase(frames.begin(), frames.begin() + options.first);
+  if (static_cast<std::size_t>(options.count) < frames.size()) {
+    frames.resize(static_cast<std::size_t>(options.count));
+  }
+  return {};
+}
+
+}  // namespace
+
+hal::Fault IndexSequence(const ReplayOptions& options, SequenceIndex& index) {
+  index = {};
+  std::error_code error;
+  if (!fs::is_directory(options.dir, error)) {
+    return hal::MakeFault(Status::kNotFound, "%s: is no folder; a recorded sequence is needed",
+                          options.dir.c_str());
+  }
+  std::vector<NumberedFile> files;
+  hal::Fault fault = ListDepth(options.dir, index, files);
+  if (fault.ok() && options.camera) {
+    index.camera.camera = *options.camera;
+  } else if (fault.ok()) {
+    fault = ReadCamera(options.dir, index.camera);
+  }
+  if (fault.ok() && index.float_depth && options.unit_m) {
+    fault = hal::MakeFault(Status::kInvalidUri, "%s: scale is for 16-bit images; .float is metres",
+                           options.dir.c_str());
+  }
+  if (fault.ok() && fs::exists(options.dir / kDataFile)) {
+    fault = ListByStamps(options.dir / kDataFile, files, index.frames);
+  } else if (fault.ok()) {
+    ListByFiles(files, index.frames);
+  }
+  if (fault.ok()) fault = FindMasks(options, index);
+  if (fault.ok()) fault = ReadWorldPoses(options, index);
+  if (fault.ok()) fault = TakeRange(options, index.frames);
+  return fault;
+}
+
+}  // namespace disflow::host

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "camera_file.h"
+#include "disflow/geometry/transform.h"
+#include "disflow/host/replay_options.h"
+#include "disflow/types.h"
+
+namespace disflow::host {
+
+/// One image of a recorded sequence.
+struct RecordedFrame {
+  std::uint64_t number = 0;     ///< In the names of its files.
+  std::filesystem::path depth;  ///< May not exist, if the sequence lists it all the same.
+  std::filesystem::path mask;   ///< Empty = this image has none.
+  StampNs stamp_ns = 0;
+  Transform<World, Camera> T_wc;
+};
+
+/// What a folder holds, found out without reading the images.
+struct SequenceIndex {
+  CameraDescription camera;
+  bool float_depth = false;  ///< Fast-YCB's .float files; else 16-bit PNG.
+  bool has_masks = false;
+  bool has_T_wc = false;
+  std::vector<RecordedFrame> frames;  ///< Never empty after success.
+};
+
+/// Detects the layout and lists the images. Checks all of the small files.
+/// @return kNotFound, kCorrupt, kUnsupported, kInvalidIntrinsics ..., naming file, reason and
+/// remedy.
+[[nodiscard]] hal::Fault IndexSequence(const ReplayOptions& options, SequenceIndex& index);
+
+}  // namespace disflow::host

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "world_poses.h"
+
+#include <cmath>
+#include <vector>
+
+#include "disflow/host/rigid_state.h"
+#include "disflow/host/sequence_layout.h"
+#include "numbered_files.h"
+#include "text_table.h"
+
+namespace disflow::host {
+namespace {
+
+namespace fs = std::filesystem;
+
+hal::Fault CountFault(const fs::path& path, std::size_t count, std::size_t images) {
+  return hal::MakeFault(Status::kCorrupt,
+                        "%s: has %zu entries for %zu depth images; one per image "
+                        "is needed",
+                        path.c_str(), count, images);
+}
+
+/// `x y z nx ny nz theta` per line.
+hal::Fault ReadAxisAnglePoses(const fs::path& file, std::vector<RecordedFrame>& frames) {
+  TextTable table;
+  hal::Fault fault = table.Read(file);
+  if (!fault.ok()) return fault;
+  if (table.rows().size() != frames.size()) {
+    return CountFault(file, table.rows().size(), frames.size());
+  }
+  std::vector<double> n;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    fault = table.ParseNumbers(table.rows()[i], 7, n);
+    if (!fault.ok()) return fault;
+    const Vec3d axis(n[3], n[4], n[5]);
+    constexpr double kTolerance = 0.01;
+    if (std::abs(axis.norm() - 1.0) > kTolerance) {
+      return table.LineFault(table.rows()[i], "the rotation axis is not of unit length");
+    }
+    const Transform<World, Camera, double> pose(ExpSo3(Vec3d(axis.normalized() * n[6])),
+                                                Vec3d(n[0], n[1], n[2]));
+    frames[i].T_wc = pose.Cast<float>();
+  }
+  return {};
+}
+
+hal::Fault ReadMatrixPose(const fs::path& file, Transform<World, Camera>& pose) {
+  TextTable table;
+  hal::Fault fault = table.Read(file);
+  if (!fault.ok()) return fault;
+  const Status kBad = Status::kCorrupt;
+  if (table.rows().size() < 3) {
+    return hal::MakeFault(kBad, "%s: holds %zu lines; a 4x4 matrix is needed", file.c_str(),
+                          table.rows().size());
+  }
+  Mat3d rotation;
+  Vec3d translation;
+  std::vector<double> n;
+  for (int row = 0; row < 3; ++row) {
+    fault = table.ParseNumbers(table.rows()[static_cast<std::size_t>(row)], 4, n);
+    if (!fault.ok()) return fault;
+    rotation.row(row) << n[0], n[1], n[2];
+    translation[row] = n[3];
+  }
+  constexpr double kTolerance = 1e-2;
+  const double error = (rotation.transpose() * rotation - Mat3d::Identity()).cwiseAbs().maxCoeff();
+  if (!(error < kTolerance) || rotation.determinant() < 0.0) {
+    return hal::MakeFault(Status::kInvalidTransform, "%s: its 3x3 part is no rotation",
+                          file.c_str());
+  }
+  pose = Transform<World, Camera, double>(rotation, translation).Normalized().Cast<float>();
+  return {};
+}
+
+hal::Fault ReadPoseFolder(const fs::path& dir, std::vector<RecordedFrame>& frames) {
+  const fs::path folder = dir / kPoseFolder;
+  std::vector<NumberedFile> files;
+  hal::Fault fault = ListNumberedFiles(folder, ".txt", files);
+  if (!fault.ok()) return fault;
+  if (files.size() != frames.size()) return CountFault(folder, files.size(), frames.size());
+  for (std::size_t i = 0; i < frames.size() && fault.ok(); ++i) {
+    fault = ReadMatrixPose(files[i].path, frames[i].T_wc);
+  }
+  return fault;
+}
+
+}  // namespace
+
+hal::Fault ReadWorldPoses(const ReplayOptions& options, SequenceIndex& index) {
+  const fs::path file = options.dir / kWorldPoseFile;
+  if (options.world_poses == WorldPoses::kPoseFolder) {
+    index.has_T_wc = true;
+    return ReadPoseFolder(options.dir, index.frames);
+  }
+  if (options.world_poses == WorldPoses::kNone || !fs::exists(file)) return {};
+  index.has_T_wc = true;
+  return ReadAxisAnglePoses(file, index.frames);
+}
+
+}  // namespace disflow::host
