@@ -29,6 +29,7 @@ set size ratio -1
 set style data points
 set key off
 set xlabel "[m]"
+set xtics 0.05
 mesh = '"$1" binary skip=$skip record=$vertices format="%float%float%float%float%float%float%uchar%uchar%uchar%float"'
 set title "from the camera"
 plot @mesh using (\$6 < 0 ? \$1 : NaN):(-\$2):(\$10 * 1e3) pointtype 7 pointsize 0.25 palette

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <arpa/inet.h>
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
+#include <unistd.h>
 
 #include <array>
+#include <cstdlib>
 #include <map>
 
 #include "child_process.h"
@@ -101,6 +104,28 @@ TEST_F(LinkTest, NobodyListens_TrackingGoesOn) {
       scratch());
   EXPECT_EQ(outcome.exit_status, 0) << outcome.err;
   EXPECT_EQ(apps::LoadEstimates(Path("run.csv"), 5).rows.size(), 5U);
+}
+
+TEST_F(LinkTest, SerialDeviceVanishesWhileSending_TrackingGoesOnAndItIsSaidOnce) {
+  constexpr int kFrames = 45;
+  posix::FileDescriptor far_end(::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC));
+  ASSERT_TRUE(far_end.is_open());
+  ASSERT_EQ(::grantpt(far_end.get()), 0);
+  ASSERT_EQ(::unlockpt(far_end.get()), 0);
+  const std::string device = ::ptsname(far_end.get());
+  ChildProcess track(DISFLOW_TRACK,
+                     {"--sensor", "sim:bottle?frames=" + std::to_string(kFrames), "--rate",
+                      "realtime", "--link", "serial://" + device, "--csv", Path("run.csv")},
+                     scratch());
+  std::array<std::byte, 512> bytes;
+  ASSERT_GT(::read(far_end.get(), bytes.data(), bytes.size()), 0) << "something was sent";
+  far_end.Reset();
+  const Outcome outcome = track.Wait();
+  EXPECT_EQ(outcome.exit_status, 4) << outcome.err;
+  const std::size_t said = outcome.err.find("tracking goes on");
+  EXPECT_NE(said, std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.err.find("tracking goes on", said + 1), std::string::npos) << outcome.err;
+  EXPECT_EQ(apps::LoadEstimates(Path("run.csv"), kFrames).rows.size(), std::size_t{kFrames});
 }
 
 TEST_F(LinkTest, PortInUse_IsSaidBeforeTheRun) {

@@ -18,7 +18,8 @@ fs::path SequenceFiles::depth(int frame) const {
 }
 
 fs::path SequenceFiles::mask(int frame) const {
-  const std::string ending = "_" + std::to_string(frame) + ".png";
+  std::string ending = "_";
+  ending.append(std::to_string(frame)).append(".png");
   for (const fs::directory_entry& entry : fs::directory_iterator(folder_ / "masks" / "gt")) {
     if (entry.path().filename().string().ends_with(ending)) return entry.path();
   }
