@@ -5,8 +5,8 @@ add_library(disflow_warnings INTERFACE)
 target_compile_options(disflow_warnings INTERFACE
   -Wall -Wextra -Wconversion -Wshadow -Wdouble-promotion -Werror)
 
-# What core, hal and everything that runs on bare metal are compiled with. -ffp-contract=off: the same bits wherever the
-# code runs; -fno-math-errno: sqrt becomes an instruction.
+# What core, hal and everything that runs on bare metal are compiled with; -fno-math-errno: sqrt becomes an instruction.
+# (-ffp-contract=off is a property of disflow_core, because its users need it too.)
 add_library(disflow_firmware_flags INTERFACE)
 target_compile_options(disflow_firmware_flags INTERFACE
-  -fno-exceptions -fno-rtti -fno-threadsafe-statics -ffp-contract=off -fno-math-errno)
+  -fno-exceptions -fno-rtti -fno-threadsafe-statics -fno-math-errno)

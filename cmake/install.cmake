@@ -22,7 +22,7 @@ foreach(program disflow_track disflow_sim disflow_eval)
     install(TARGETS ${program} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
   endif()
 endforeach()
-install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES LICENSE CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 install(EXPORT disflow_targets NAMESPACE disflow:: DESTINATION ${disflow_package_dir})
 configure_package_config_file(cmake/disflow-config.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/disflow-config.cmake
