@@ -71,7 +71,7 @@ struct RegistrationConfig {
   float damping = 1e-4F;
   float temporal_std_m = 0.02F;
   float temporal_std_rad = 0.1F;
-  float edge_std_px = 1.0F;
+  float edge_std_px = 0.3F;
   float hypothesis_score = 0.75F;
   int hypothesis_iterations = 3;
   int score_points = 120;

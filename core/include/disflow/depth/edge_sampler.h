@@ -123,7 +123,7 @@ class EdgeSampler {
     const float facing = near.normal.dot(ray);
     const float depth_m = near.offset_m / facing;
     if (!(depth_m > 0.0F) || !EndsBeforeBackground(depth, config, at, depth_m)) return false;
-    if (!ReachesOutline(depth, camera, at, near, surfaces.noise_std())) return false;
+    if (!ReachesOutline(depth, camera, at, fit.inward, near, surfaces.noise_std())) return false;
 
     const Vec3 along = camera.Ray(outline.x() - fit.inward.y(), outline.y() + fit.inward.x());
     edge.position_m = depth_m * ray;
@@ -136,25 +136,33 @@ class EdgeSampler {
   }
 
   /// The pixels up to the outline lie on the surface: no sliver of another face, seen at a flat
-  /// angle, is in between.
+  /// angle, is in between. Judged by medians along the outline, which noise and flying pixels
+  /// disturb less than single pixels.
   template <class At>
   [[nodiscard]] static bool ReachesOutline(
-      const DepthReader& depth, const PinholeCamera& camera, const At& at,
+      const DepthReader& depth, const PinholeCamera& camera, const At& at, const Vec2& inward,
       const typename SurfaceSampler<Limits>::LocalSurface& surface, float noise_std) noexcept {
-    constexpr int kCheckedPx = 3;
-    constexpr float kPlaneTolerance = 0.002F;  // share of the depth
-    const float tolerance = 4.0F * noise_std + kPlaneTolerance / std::abs(surface.offset_m);
+    constexpr int kRows = 4;
+    constexpr int kHalfLength = 3;
+    constexpr float kPlaneTolerance = 0.001F;  // share of the depth
+    const float tolerance = 0.9F * noise_std + kPlaneTolerance / std::abs(surface.offset_m);
+    const Vec2 along(-inward.y(), inward.x());
     int agreeing = 0;
-    for (int i = 0; i < kCheckedPx; ++i) {
-      const Vec2 p = at(static_cast<float>(i));
-      const auto u = static_cast<int>(std::lround(p.x()));
-      const auto v = static_cast<int>(std::lround(p.y()));
-      const float depth_m = depth.AtOrZero(u, v);
-      if (depth_m <= 0.0F) continue;
-      const float expected =
-          surface.normal.dot(camera.Ray(static_cast<float>(u), static_cast<float>(v))) /
-          surface.offset_m;
-      if (std::abs(1.0F / depth_m - expected) > tolerance) return false;
+    for (int row = 0; row < kRows; ++row) {
+      FixedVector<float, 2 * kHalfLength + 1> deviations;
+      for (int i = -kHalfLength; i <= kHalfLength; ++i) {
+        const Vec2 p = at(static_cast<float>(row)) + static_cast<float>(i) * along;
+        const auto u = static_cast<int>(std::lround(p.x()));
+        const auto v = static_cast<int>(std::lround(p.y()));
+        const float depth_m = depth.AtOrZero(u, v);
+        if (depth_m <= 0.0F) continue;
+        const Vec3 ray = camera.Ray(static_cast<float>(u), static_cast<float>(v));
+        (void)deviations.push_back(std::abs(1.0F / depth_m - surface.normal.dot(ray) / surface.offset_m));
+      }
+      if (deviations.size() < kHalfLength) continue;
+      auto* middle = deviations.begin() + deviations.size() / 3;
+      std::nth_element(deviations.begin(), middle, deviations.end());
+      if (*middle > tolerance) return false;
       ++agreeing;
     }
     return agreeing >= 2;
