@@ -15,8 +15,7 @@ OccludingArm::OccludingArm(double object_radius_m, std::uint64_t seed)
   RandomNumbers random(seed, 7);
   sweep_rps_ = 2.0 * std::numbers::pi * random.Uniform(0.22, 0.32);
   lean_rad_ = random.Uniform(-0.3, 0.3);
-  // About a third as wide as the object's sphere.
-  radius_m_ = 0.28 * object_radius_m;
+  radius_m_ = 0.4 * object_radius_m;
   mesh_ = MakeCapsule(radius_m_, 1.0);
 }
 
@@ -26,9 +25,9 @@ Transform<Camera, Object, double> OccludingArm::PoseAt(
   constexpr double kSweepRadii = 2.4;
   constexpr double kGap_m = 0.02;
   const double aside_m = kSweepRadii * object_radius_m_ * std::cos(sweep_rps_ * time_s);
-  const double tip_above_m = 0.6 * object_radius_m_;
+  // The tip reaches the object's middle: whatever the object's attitude, about half stays free.
   const double depth_m = std::max(0.2, object.z() - object_radius_m_ - radius_m_ - kGap_m);
-  const Vec3d tip = (object + Vec3d(aside_m, -tip_above_m, 0.0)) * (depth_m / object.z());
+  const Vec3d tip = (object + Vec3d(aside_m, 0.0, 0.0)) * (depth_m / object.z());
   Mat3d upright;
   upright << 1, 0, 0, 0, 0, -1, 0, 1, 0;  // the capsule's +z is the camera's up
   return {Mat3d(ExpSo3(Vec3d(0.0, 0.0, lean_rad_)) * upright), tip};

@@ -117,7 +117,8 @@ float SensorNoise::MeasurePixel(std::size_t pixel, int u, BitSource& bits) const
     return static_cast<double>(bits.Take(kBits)) < share * (1U << kBits);
   };
   const auto normal = [this, &bits] { return normal_quantiles_[bits.Take(kQuantileBits)]; };
-  if (chance(model_.hole_share)) return 0.0F;
+  const bool nothing_there = disparity_px_[pixel] <= 0.0F;
+  if (nothing_there || chance(model_.hole_share)) return 0.0F;
   float disparity_px = disparity_px_[pixel];
   if (model_.lateral_std_px > 0.0) {
     const auto shift =
@@ -138,7 +139,7 @@ float SensorNoise::MeasurePixel(std::size_t pixel, int u, BitSource& bits) const
   disparity_px += static_cast<float>(model_.std_px) * normal();
   const auto step_px = static_cast<float>(model_.step_px);
   const float rounded_px = std::round(disparity_px / step_px) * step_px;
-  // Nothing there, or so far away that the disparity vanishes.
+  // So far away that the disparity vanishes in the noise.
   if (!(rounded_px > 0.0F)) return 0.0F;
   return static_cast<float>(model_.focal_baseline_px_m) / rounded_px;
 }

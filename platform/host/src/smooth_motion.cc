@@ -43,6 +43,9 @@ void SmoothMotion::MatchPeaks(const MotionPeaks& peaks) {
       amplitude *= peaks.angular_rps / reached.angular_rps;
     }
   }
+  // To the amplitude of the position, speed is proportional; but the workspace is bounded.
+  position_amplitude_ *= peaks.linear_mps / MeasurePeaks(*this).linear_mps;
+  position_amplitude_ = std::min(position_amplitude_, 1.0);
 }
 
 RigidState<World, Object> SmoothMotion::At(double time_s) const {
@@ -52,7 +55,7 @@ RigidState<World, Object> SmoothMotion::At(double time_s) const {
   Vec3d position;
   for (int i = 0; i < 3; ++i) {
     const SmoothSignal& signal = position_[static_cast<std::size_t>(i)];
-    const double half_m = workspace_.half_extent_m[i];
+    const double half_m = position_amplitude_ * workspace_.half_extent_m[i];
     position[i] = workspace_.centre_m[i] + half_m * signal.Value(position_speed_ * time);
     state.linear_mps[i] = half_m * signal.Rate(position_speed_ * time) * position_speed_ * rate;
   }

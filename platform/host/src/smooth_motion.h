@@ -33,7 +33,8 @@ class SmoothMotion final : public ObjectMotion {
   Mat3d start_rotation_;
   std::array<SmoothSignal, 3> position_;
   std::array<SmoothSignal, 3> angle_;
-  double position_speed_ = 1.0;  // time scale of the position
+  double position_speed_ = 1.0;      // time scale of the position
+  double position_amplitude_ = 0.9;  // share of the workspace
   std::array<double, 3> angle_amplitude_rad_{1.0, 0.45, 0.45};
 };
 
