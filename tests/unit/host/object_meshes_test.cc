@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "disflow/host/object_meshes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace disflow::host {
+namespace {
+
+double Volume(const TriangleMesh& mesh) {
+  double volume = 0.0;
+  for (const auto& t : mesh.triangles) {
+    volume += mesh.vertices[t[0]].dot(mesh.vertices[t[1]].cross(mesh.vertices[t[2]])) / 6.0;
+  }
+  return volume;
+}
+
+Vec3d High(const TriangleMesh& mesh) {
+  Vec3d high = mesh.vertices.front();
+  for (const Vec3d& vertex : mesh.vertices) high = high.cwiseMax(vertex);
+  return high;
+}
+
+Vec3d Low(const TriangleMesh& mesh) {
+  Vec3d low = mesh.vertices.front();
+  for (const Vec3d& vertex : mesh.vertices) low = low.cwiseMin(vertex);
+  return low;
+}
+
+struct KnownObject {
+  const char* name;
+  TriangleMesh (*make)();
+  Vec3d size_m;
+};
+
+void PrintTo(const KnownObject& object, std::ostream* stream) { *stream << object.name; }
+
+class ObjectMesh : public testing::TestWithParam<KnownObject> {};
+
+TEST_P(ObjectMesh, IsClosedAndFacesOutwards) {
+  const TriangleMesh mesh = GetParam().make();
+  // Points with one place are one vertex: tips are drawn many times.
+  std::map<std::array<double, 3>, int> places;
+  std::vector<int> place;
+  for (const Vec3d& v : mesh.vertices) {
+    place.push_back(
+        places.try_emplace({v.x(), v.y(), v.z()}, static_cast<int>(places.size())).first->second);
+  }
+  std::map<std::pair<int, int>, int> edges;
+  for (const auto& t : mesh.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) ++edges[{place[t[i]], place[t[(i + 1) % 3]]}];
+  }
+  for (const auto& [edge, count] : edges) {
+    ASSERT_EQ(count, 1) << "an edge is used twice in one direction";
+    ASSERT_EQ(edges.count({edge.second, edge.first}), 1U) << "an edge has no other side";
+  }
+  EXPECT_GT(Volume(mesh), 0.0);
+}
+
+TEST_P(ObjectMesh, HasItsSizeAboutTheOrigin) {
+  const TriangleMesh mesh = GetParam().make();
+  constexpr double kTolerance_m = 0.0015;
+  const Vec3d size = High(mesh) - Low(mesh);
+  EXPECT_TRUE((size - GetParam().size_m).cwiseAbs().maxCoeff() < kTolerance_m) << size.transpose();
+  EXPECT_LT((High(mesh) + Low(mesh)).norm(), 1e-12);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, ObjectMesh,
+    testing::Values(KnownObject{"Box", MakeCrackerBox, {0.164, 0.072, 0.213}},
+                    KnownObject{"Bottle", MakeMustardBottle, {0.095, 0.058, 0.191}},
+                    KnownObject{"Can", MakeCan, {0.102, 0.102, 0.140}},
+                    KnownObject{"Doughnut", MakeDoughnut, {0.120, 0.120, 0.040}}),
+    [](const auto& test) { return test.param.name; });
+
+TEST(Doughnut, Facets_StayWithin50MicrometresOfTheTorus) {
+  const TriangleMesh mesh = MakeDoughnut();
+  for (const auto& t : mesh.triangles) {
+    const Vec3d centre = (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3.0;
+    const double ring = std::hypot(centre.x(), centre.y()) - 0.040;
+    ASSERT_NEAR(std::hypot(ring, centre.z()), 0.020, 5e-5);
+  }
+}
+
+TEST(Bottle, HalfATurn_DoesNotMapItOntoItself) {
+  const TriangleMesh mesh = MakeMustardBottle();
+  // Its back reaches farther than its front, measured from the nozzle's axis.
+  Vec3d tip = mesh.vertices.front();
+  for (const Vec3d& v : mesh.vertices) {
+    if (v.z() > tip.z()) tip = v;
+  }
+  EXPECT_GT(std::abs(tip.y()), 0.002);
+}
+
+TEST(SampleSurface, Points_AreSpreadByArea) {
+  const TriangleMesh box = MakeCrackerBox();
+  constexpr int kCount = 4000;
+  const std::vector<Vec3d> points = SampleSurface(box, kCount);
+  ASSERT_EQ(points.size(), static_cast<std::size_t>(kCount));
+  const Vec3d half(0.082, 0.036, 0.1065);
+  const Vec3d face_area(half.y() * half.z(), half.x() * half.z(), half.x() * half.y());
+  Vec3d on_face = Vec3d::Zero();
+  for (const Vec3d& point : points) {
+    int axis = 0;
+    const double deviation = (point.cwiseAbs() - half).cwiseAbs().minCoeff(&axis);
+    ASSERT_LT(deviation, 1e-12) << "not on the surface";
+    on_face[axis] += 1.0 / kCount;
+  }
+  EXPECT_LT((on_face - face_area / face_area.sum()).cwiseAbs().maxCoeff(), 0.005);
+  EXPECT_EQ(SampleSurface(box, kCount), points) << "not the same on every call";
+}
+
+}  // namespace
+}  // namespace disflow::host

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "disflow/host/simulation_options.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace disflow::host {
+namespace {
+
+hal::Fault Parse(const std::string& text, SimulationOptions& options) {
+  Uri uri;
+  const hal::Fault fault = ParseUri(text, uri);
+  return fault.ok() ? ParseSimulationUri(uri, options) : fault;
+}
+
+TEST(SimulationOptions, EveryKey_ReachesItsField) {
+  SimulationOptions options;
+  const hal::Fault fault = Parse(
+      "sim:bottle?motion=flying&noise=kinect&seed=7&frames=12&fps=60&width=320&height=240&focal="
+      "250&occluder=arm&drop=0.25&camera=moving&mask=sloppy&format=z16",
+      options);
+  ASSERT_TRUE(fault.ok()) << fault.message;
+  EXPECT_EQ(options.object, ObjectKind::kBottle);
+  EXPECT_EQ(options.motion, MotionKind::kFlying);
+  EXPECT_EQ(options.noise, NoiseKind::kKinect);
+  EXPECT_EQ(options.seed, 7U);
+  EXPECT_EQ(options.frames, 12);
+  EXPECT_EQ(options.fps, 60.0);
+  EXPECT_EQ(options.width_px, 320);
+  EXPECT_EQ(options.height_px, 240);
+  EXPECT_EQ(options.focal_px, 250.0);
+  EXPECT_EQ(options.occluder, OccluderKind::kArm);
+  EXPECT_EQ(options.drop, 0.25);
+  EXPECT_EQ(options.camera, CameraKind::kMoving);
+  EXPECT_EQ(options.mask, MaskKind::kSloppy);
+  EXPECT_EQ(options.format, DepthFormat::kUint16);
+}
+
+TEST(SimulationOptions, ObjFile_KeepsItsPath) {
+  SimulationOptions options;
+  ASSERT_TRUE(Parse("sim:obj:/meshes/003_box.obj?seed=2", options).ok());
+  EXPECT_EQ(options.object, ObjectKind::kObjFile);
+  EXPECT_EQ(options.obj_file, "/meshes/003_box.obj");
+  EXPECT_EQ(ObjectName(options), "003_box");
+}
+
+TEST(SimulationOptions, UsualCamera_IsFastYcbsScaledToTheWidth) {
+  const PinholeCamera camera = SimulatedCamera({});
+  EXPECT_NEAR(camera.fx_px, 614.715F, 1e-3F);
+  EXPECT_EQ(camera.fx_px, camera.fy_px);
+  EXPECT_EQ(camera.cx_px, 320.0F);
+  EXPECT_EQ(camera.cy_px, 180.0F);
+}
+
+struct BadAddress {
+  const char* text;
+  const char* named;    // what the message must name
+  const char* allowed;  // and what it must offer
+};
+
+class BadSimulationAddress : public testing::TestWithParam<BadAddress> {};
+
+TEST_P(BadSimulationAddress, IsNamedWithWhatIsAllowed) {
+  SimulationOptions options;
+  options.seed = 99;
+  const hal::Fault fault = Parse(GetParam().text, options);
+  EXPECT_EQ(fault.status, Status::kInvalidUri);
+  EXPECT_NE(std::string(fault.message).find(GetParam().named), std::string::npos) << fault.message;
+  EXPECT_NE(std::string(fault.message).find(GetParam().allowed), std::string::npos)
+      << fault.message;
+  EXPECT_EQ(options.seed, 99U) << "options must stay as they were";
+}
+
+INSTANTIATE_TEST_SUITE_P(All, BadSimulationAddress,
+                         testing::Values(BadAddress{"sim:teapot", "teapot", "bottle"},
+                                         BadAddress{"sim:obj:", "obj:", "obj:FILE"},
+                                         BadAddress{"sim:box?motion=slow", "motion=slow",
+                                                    "rotate360"},
+                                         BadAddress{"sim:box?speed=1", "speed", "motion"},
+                                         BadAddress{"sim:box?seed=-1", "seed=-1", "0 to"},
+                                         BadAddress{"sim:box?frames=0", "frames=0", "1 to"},
+                                         BadAddress{"sim:box?frames=10x", "frames=10x", "1 to"},
+                                         BadAddress{"sim:box?drop=nan", "drop=nan", "0 to 0.9"},
+                                         BadAddress{"sim:box?drop=1", "drop=1", "0 to 0.9"},
+                                         BadAddress{"sim:box?width=99999999999", "width", "4096"},
+                                         BadAddress{"sim:box?format=jpeg", "format=jpeg", "z16"}));
+
+}  // namespace
+}  // namespace disflow::host
