@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace disflow::host {
 namespace {
@@ -20,6 +19,22 @@ struct Affine {
 /// Positive on the left of the line from (u0, v0) to (u1, v1) when v points down.
 Affine EdgeFunction(double u0, double v0, double u1, double v1) {
   return {v1 - v0, u0 - u1, u1 * v0 - u0 * v1};
+}
+
+// Conversions to int instead of std::ceil and std::floor, which are calls on plain x86-64.
+
+/// The first pixel centre of the image at or after a coordinate.
+int FirstPixel(double coordinate_px) {
+  if (!(coordinate_px > 0.0)) return 0;
+  constexpr double kFarOutside_px = 1e6;
+  const int whole = static_cast<int>(std::min(coordinate_px, kFarOutside_px));
+  return static_cast<double>(whole) < coordinate_px ? whole + 1 : whole;
+}
+
+/// The last pixel centre of the image at or before a coordinate; -1 if there is none.
+int LastPixel(double coordinate_px, int size_px) {
+  if (!(coordinate_px >= 0.0)) return -1;
+  return static_cast<int>(std::min(coordinate_px, static_cast<double>(size_px - 1)));
 }
 
 }  // namespace
@@ -70,16 +85,16 @@ void DepthRenderer::DrawTriangle(const ProjectedVertex& a, const ProjectedVertex
                                  const ProjectedVertex& c, std::uint8_t label) {
   const double nearest_m = std::min({a.position_m.z(), b.position_m.z(), c.position_m.z()});
   if (!(nearest_m > kNearLimit_m)) return;
-  const int u_min = static_cast<int>(std::ceil(std::max(0.0, std::min({a.u_px, b.u_px, c.u_px}))));
-  const int v_min = static_cast<int>(std::ceil(std::max(0.0, std::min({a.v_px, b.v_px, c.v_px}))));
-  const int u_max = static_cast<int>(
-      std::floor(std::min<double>(width_ - 1, std::max({a.u_px, b.u_px, c.u_px}))));
-  const int v_max = static_cast<int>(
-      std::floor(std::min<double>(height_ - 1, std::max({a.v_px, b.v_px, c.v_px}))));
-  if (u_min > u_max || v_min > v_max) return;  // covers no pixel centre
+  // Most triangles of a dense mesh end here: seen from behind, or between pixel centres.
+  if (!(EdgeFunction(a.u_px, a.v_px, b.u_px, b.v_px).At(c.u_px, c.v_px) > 0.0)) return;
+  const int u_min = FirstPixel(std::min({a.u_px, b.u_px, c.u_px}));
+  const int v_min = FirstPixel(std::min({a.v_px, b.v_px, c.v_px}));
+  const int u_max = LastPixel(std::max({a.u_px, b.u_px, c.u_px}), width_);
+  const int v_max = LastPixel(std::max({a.v_px, b.v_px, c.v_px}), height_);
+  if (u_min > u_max || v_min > v_max) return;
   const Vec3d normal = (b.position_m - a.position_m).cross(c.position_m - a.position_m);
   const double offset = normal.dot(a.position_m);
-  if (!(offset < 0.0)) return;  // seen from behind or edge-on
+  if (!(offset < 0.0)) return;  // edge-on
   const Vec3d n = normal / offset;
   const Affine inverse_depth{n.x() / fx_, n.y() / fy_,
                              n.z() - n.x() * cx_ / fx_ - n.y() * cy_ / fy_};

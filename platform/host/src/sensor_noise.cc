@@ -138,7 +138,9 @@ float SensorNoise::MeasurePixel(std::size_t pixel, int u, BitSource& bits) const
   }
   disparity_px += static_cast<float>(model_.std_px) * normal();
   const auto step_px = static_cast<float>(model_.step_px);
-  const float rounded_px = std::round(disparity_px / step_px) * step_px;
+  // Not std::round, which is a call on plain x86-64; disparities are not negative here.
+  const float steps = static_cast<float>(static_cast<int>(disparity_px / step_px + 0.5F));
+  const float rounded_px = steps * step_px;
   // So far away that the disparity vanishes in the noise.
   if (!(rounded_px > 0.0F)) return 0.0F;
   return static_cast<float>(model_.focal_baseline_px_m) / rounded_px;
