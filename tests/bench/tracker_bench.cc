@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// Time of whole frames in the Edge profile on the simulated camera at 640x360: median, 99th percentile, maximum.
+/// Time of whole frames in the Edge profile on the simulated camera at 640x360: median, 99th
+/// percentile, maximum.
 
 #include <benchmark/benchmark.h>
 
@@ -77,9 +78,15 @@ void TrackSequence(benchmark::State& state, host::ObjectKind object, host::MaskK
   state.counters["tracker_bytes"] = static_cast<double>(sizeof(Tracker<profiles::Edge>));
 }
 
-void BoxWithMask(benchmark::State& state) { TrackSequence(state, host::ObjectKind::kBox, host::MaskKind::kGt); }
-void BottleWithMask(benchmark::State& state) { TrackSequence(state, host::ObjectKind::kBottle, host::MaskKind::kGt); }
-void BoxWithoutMask(benchmark::State& state) { TrackSequence(state, host::ObjectKind::kBox, host::MaskKind::kNone); }
+void BoxWithMask(benchmark::State& state) {
+  TrackSequence(state, host::ObjectKind::kBox, host::MaskKind::kGt);
+}
+void BottleWithMask(benchmark::State& state) {
+  TrackSequence(state, host::ObjectKind::kBottle, host::MaskKind::kGt);
+}
+void BoxWithoutMask(benchmark::State& state) {
+  TrackSequence(state, host::ObjectKind::kBox, host::MaskKind::kNone);
+}
 
 BENCHMARK(BoxWithMask)->UseManualTime()->Iterations(5)->Unit(benchmark::kMillisecond);
 BENCHMARK(BottleWithMask)->UseManualTime()->Iterations(5)->Unit(benchmark::kMillisecond);

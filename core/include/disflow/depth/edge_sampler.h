@@ -157,7 +157,8 @@ class EdgeSampler {
         const float depth_m = depth.AtOrZero(u, v);
         if (depth_m <= 0.0F) continue;
         const Vec3 ray = camera.Ray(static_cast<float>(u), static_cast<float>(v));
-        (void)deviations.push_back(std::abs(1.0F / depth_m - surface.normal.dot(ray) / surface.offset_m));
+        (void)deviations.push_back(
+            std::abs(1.0F / depth_m - surface.normal.dot(ray) / surface.offset_m));
       }
       if (deviations.size() < kHalfLength) continue;
       auto* middle = deviations.begin() + deviations.size() / 3;
