@@ -17,7 +17,7 @@ constexpr std::size_t kAddPoints = 2000;
 
 std::filesystem::path FindModel(const EvaluationInput& input) {
   if (!input.model.empty()) return input.model;
-  const std::filesystem::path file = input.sequence_dir / "gt" / "model.obj";
+  std::filesystem::path file = input.sequence_dir / "gt" / "model.obj";
   if (!std::filesystem::exists(file)) {
     throw InputError(file, "does not exist; name the object's model with --model");
   }
