@@ -77,8 +77,9 @@ void AddOutput(CLI::App& app, Options& options) {
   app.add_option("--record", options.record, "Write the frames as a sequence for replay:DIR")
       ->type_name("DIR");
   app.add_flag("--headless", options.headless, "No live status line");
-  app.add_flag("!--no-timing", options.timing,
-               "Write 0 for all times, so that two runs give the same bytes");
+  app.add_flag_callback(
+      "--no-timing", [&options] { options.timing = false; },
+      "Write 0 for all times, so that two runs give the same bytes");
   app.add_flag("--print-config", options.print_config, "Print all settings as TOML and end");
   app.add_flag("--print-settings-table", options.print_settings_table,
                "Print docs/settings.md and end");

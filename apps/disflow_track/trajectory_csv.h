@@ -6,7 +6,7 @@
 
 namespace disflow::apps {
 
-/// The trajectory: one row per input frame, columns as in docs/formats.md. Writing does not
+/// The trajectory: one row per input frame, columns as in docs/outputs.md. Writing does not
 /// allocate.
 class TrajectoryCsv {
  public:
