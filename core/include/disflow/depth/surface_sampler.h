@@ -95,7 +95,7 @@ class SurfaceSampler {
       rows_ = (box.height() + block_px_ - 1) / block_px_;
       // Partly covered blocks yield samples too: leave them some room.
       const float expected_samples =
-          1.2F * static_cast<float>(interior.count() / (block_px_ * block_px_));
+          1.2F * static_cast<float>(interior.count()) / static_cast<float>(block_px_ * block_px_);
       if (columns_ * rows_ <= Limits::kMaxBlocks &&
           expected_samples <= static_cast<float>(Limits::kMaxSurfaceSamples)) {
         break;
