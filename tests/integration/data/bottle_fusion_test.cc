@@ -5,9 +5,9 @@
 #include <array>
 #include <fstream>
 
-#include "depth_png.h"
 #include "disflow/depth/depth_reader.h"
 #include "disflow/field/distance_query.h"
+#include "disflow/host/png_image.h"
 #include "disflow/tracker.h"
 #include "surface_mesh.h"
 #include "test_data.h"
@@ -28,7 +28,7 @@ constexpr std::array<PinholeCamera, 4> kCameras = {{{570.9361F, 570.9376F, 306.8
 
 /// One image of the turntable with its known pose.
 struct View {
-  DepthPng image;
+  host::GrayImage image;
   std::vector<std::uint8_t>
       mask;  ///< The images are masked already: all that is there is the bottle.
   PinholeCamera camera;
@@ -57,7 +57,9 @@ std::vector<View> LoadViews(const fs::path& folder) {
     rotation << p[0], p[4], p[8], p[1], p[5], p[9], p[2], p[6], p[10];
     const fs::path name = ImageName(k);
     const char camera = name.string()[name.string().find("cam") + 3];
-    DepthPng image = ReadDepthPng(folder / "masked_depth" / name);
+    host::GrayImage image;
+    const hal::Fault fault = host::ReadGrayPng(folder / "masked_depth" / name, image);
+    EXPECT_TRUE(fault.ok()) << fault.message;
     std::vector<std::uint8_t> mask(image.pixels.size());
     std::transform(image.pixels.begin(), image.pixels.end(), mask.begin(), [](std::uint16_t depth) {
       return static_cast<std::uint8_t>(depth > 0 ? 255 : 0);
