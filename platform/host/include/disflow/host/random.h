@@ -7,7 +7,7 @@
 namespace disflow::host {
 
 /// Random numbers that are the same with every standard library (unlike the distributions of
-/// <random>).
+/// the standard header).
 class RandomNumbers {
  public:
   explicit RandomNumbers(std::uint64_t seed) : engine_(seed) {}

@@ -13,7 +13,7 @@
 
 namespace disflow::host {
 
-/// Writes a sequence in the Fast-YCB layout: cam_K.json, depth/<i>.float, masks/<set>/<object>_<i>
+/// Writes a sequence in the Fast-YCB layout: cam_K.json, depth/I.float, masks/SET/OBJECT_I
 /// .png, data.txt; if given also gt/poses.txt, gt/velocities.txt and T_wc.txt.
 ///
 /// T_wc.txt is this project's addition: one line `x y z nx ny nz theta` per frame, camera in world.

@@ -10,7 +10,7 @@
 namespace disflow::host {
 
 /// Plays a recorded sequence, frame by frame, as fast as it is asked to. Layouts: Fast-YCB
-/// (depth/<i>.float, masks/<set>/<object>_<i>.png, data.txt) and folders of 16-bit PNG.
+/// (depth/I.float, masks/SET/OBJECT_I.png, data.txt) and folders of 16-bit PNG.
 ///
 /// A frame whose file is missing, cut or damaged is lost: Next() says kTruncated or kCorrupt and
 /// goes on with the next one. Where a mask set has no image for a frame (segmentation networks skip
