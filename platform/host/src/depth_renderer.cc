@@ -51,7 +51,7 @@ DepthRenderer::DepthRenderer(const PinholeCamera& camera, int width_px, int heig
 
 void DepthRenderer::Clear() {
   std::fill(inverse_depth_.begin(), inverse_depth_.end(), 0.0F);
-  std::fill(labels_.begin(), labels_.end(), std::uint8_t{0});
+  std::fill(labels_.begin(), labels_.end(), std::uint32_t{0});
 }
 
 void DepthRenderer::DrawPlane(const Plane& plane) {
@@ -70,19 +70,33 @@ void DepthRenderer::DrawPlane(const Plane& plane) {
 }
 
 void DepthRenderer::DrawMesh(const TriangleMesh& mesh,
-                             const Transform<Camera, Object, double>& T_cm, std::uint8_t label) {
-  projected_.resize(std::max(projected_.size(), mesh.vertices.size()));
-  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-    const Vec3d x = T_cm * mesh.vertices[i];
-    projected_[i] = {x, fx_ * x.x() / x.z() + cx_, fy_ * x.y() / x.z() + cy_};
-  }
+                             const Transform<Camera, Object, double>& T_cm, std::uint32_t label) {
+  Project(mesh, T_cm);
   for (const TriangleMesh::Triangle& t : mesh.triangles) {
     DrawTriangle(projected_[t[0]], projected_[t[1]], projected_[t[2]], label);
   }
 }
 
+void DepthRenderer::DrawTriangles(const TriangleMesh& mesh,
+                                  const Transform<Camera, Object, double>& T_cm) {
+  Project(mesh, T_cm);
+  std::uint32_t label = 0;
+  for (const TriangleMesh::Triangle& t : mesh.triangles) {
+    DrawTriangle(projected_[t[0]], projected_[t[1]], projected_[t[2]], ++label);
+  }
+}
+
+void DepthRenderer::Project(const TriangleMesh& mesh,
+                            const Transform<Camera, Object, double>& T_cm) {
+  projected_.resize(std::max(projected_.size(), mesh.vertices.size()));
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    const Vec3d x = T_cm * mesh.vertices[i];
+    projected_[i] = {x, fx_ * x.x() / x.z() + cx_, fy_ * x.y() / x.z() + cy_};
+  }
+}
+
 void DepthRenderer::DrawTriangle(const ProjectedVertex& a, const ProjectedVertex& b,
-                                 const ProjectedVertex& c, std::uint8_t label) {
+                                 const ProjectedVertex& c, std::uint32_t label) {
   const double nearest_m = std::min({a.position_m.z(), b.position_m.z(), c.position_m.z()});
   if (!(nearest_m > kNearLimit_m)) return;
   // Most triangles of a dense mesh end here: seen from behind, or between pixel centres.

@@ -13,7 +13,7 @@
 namespace disflow::host {
 namespace {
 
-enum Label : std::uint8_t { kBackground = 0, kObject = 1, kArm = 2 };
+enum Label : std::uint32_t { kBackground = 0, kObject = 1, kArm = 2 };
 
 constexpr double kGapBehindObject_m = 0.35;
 
@@ -29,7 +29,8 @@ Mat3d StartRotation(const SimulationOptions& options, const TriangleMesh& mesh) 
     int longest = 0;
     extent.maxCoeff(&longest);
     if (longest == 0) rotation *= ExpSo3(Vec3d(0.0, -0.5 * std::numbers::pi, 0.0));
-    if (longest == 1) rotation *= ExpSo3(Vec3d(0.5 * std::numbers::pi, 0.0, 0.0));
+    // Tall meshes with a y axis along their height have it point down, as Fast-YCB's do.
+    if (longest == 1) rotation *= ExpSo3(Vec3d(-0.5 * std::numbers::pi, 0.0, 0.0));
   }
   RandomNumbers random(options.seed, 5);
   const double yaw_rad = random.Uniform(25.0, 65.0) * kRadPerDeg;
@@ -121,7 +122,7 @@ void Simulation::Render(int index, DepthFrame& frame) {
   }
   std::transform(
       renderer_.labels().begin(), renderer_.labels().end(), gt_mask_.begin(),
-      [](std::uint8_t label) { return static_cast<std::uint8_t>(label == kObject ? 255 : 0); });
+      [](std::uint32_t label) { return static_cast<std::uint8_t>(label == kObject ? 255 : 0); });
   sloppy_.Update(index, gt_mask_);
 
   frame = DepthFrame{};

@@ -14,7 +14,7 @@ namespace {
 constexpr int kWidth_px = 160;
 constexpr int kHeight_px = 120;
 constexpr PinholeCamera kCamera{150.0F, 140.0F, 81.5F, 58.25F};
-constexpr std::uint8_t kLabel = 7;
+constexpr std::uint32_t kLabel = 7;
 
 using CameraFromMesh = Transform<Camera, Object, double>;
 
@@ -40,7 +40,7 @@ TEST(DepthRenderer, Plane_HasTheDepthOfTheRay) {
   DepthRenderer renderer(kCamera, kWidth_px, kHeight_px);
   const Plane plane{Vec3d(0.3, -0.2, 0.9).normalized(), 1.3};
   renderer.DrawPlane(plane);
-  ForEachPixel(renderer, [&](int u, int v, double depth_m, int) {
+  ForEachPixel(renderer, [&](int u, int v, double depth_m, std::uint32_t) {
     ASSERT_NEAR(depth_m, plane.offset_m / plane.normal.dot(Ray(u, v)), 1e-6);
   });
 }
@@ -49,7 +49,7 @@ TEST(DepthRenderer, PartOfAPlaneBehindTheCamera_IsNotDrawn) {
   DepthRenderer renderer(kCamera, kWidth_px, kHeight_px);
   const Plane table{Vec3d(0.0, 1.0, 0.0), 0.4};  // below; the horizon is at the image's middle
   renderer.DrawPlane(table);
-  ForEachPixel(renderer, [&](int u, int v, double depth_m, int) {
+  ForEachPixel(renderer, [&](int u, int v, double depth_m, std::uint32_t) {
     ASSERT_EQ(depth_m > 0.0, Ray(u, v).y() > 0.0) << u << " " << v;
   });
 }
@@ -60,14 +60,14 @@ TEST(DepthRenderer, TurnedBox_HasDepthAndOutlineOfTheRays) {
   renderer.DrawMesh(MakeCrackerBox(), T, kLabel);
   const Vec3d half(0.082, 0.036, 0.1065);
   int seen = 0;
-  ForEachPixel(renderer, [&](int u, int v, double depth_m, int label) {
+  ForEachPixel(renderer, [&](int u, int v, double depth_m, std::uint32_t label) {
     const auto expected = BoxDepth(half, T, Ray(u, v));
     // Rays that graze the outline may fall on either side by rounding.
     const Vec3d sliver = Vec3d::Constant(1e-6);
     const bool certain = BoxDepth(half + sliver, T, Ray(u, v)).has_value() ==
                          BoxDepth(half - sliver, T, Ray(u, v)).has_value();
     if (!certain) return;
-    ASSERT_EQ(label, expected ? kLabel : 0) << u << " " << v;
+    ASSERT_EQ(label, expected ? kLabel : 0U) << u << " " << v;
     if (!expected) return;
     ASSERT_NEAR(depth_m, *expected, 1e-6);
     ++seen;
@@ -81,7 +81,7 @@ TEST(DepthRenderer, Doughnut_LiesOnTheTorusAndHasNoCracks) {
   renderer.DrawMesh(MakeDoughnut(), T, kLabel);
   const Transform<Object, Camera, double> T_inverse = T.Inverse();
   int seen = 0;
-  ForEachPixel(renderer, [&](int u, int v, double depth_m, int label) {
+  ForEachPixel(renderer, [&](int u, int v, double depth_m, std::uint32_t label) {
     if (label != kLabel) return;
     ++seen;
     const Vec3d x = T_inverse * Vec3d(Ray(u, v) * depth_m);
@@ -102,7 +102,7 @@ TEST(DepthRenderer, TriangleSeenFromBehind_IsNotDrawn) {
     mesh.triangles = {front ? TriangleMesh::Triangle{0, 2, 1} : TriangleMesh::Triangle{0, 1, 2}};
     DepthRenderer renderer(kCamera, kWidth_px, kHeight_px);
     renderer.DrawMesh(mesh, CameraFromMesh(), kLabel);
-    EXPECT_EQ(renderer.labels()[Pixel(81, 57)], front ? kLabel : 0);
+    EXPECT_EQ(renderer.labels()[Pixel(81, 57)], front ? kLabel : 0U);
   }
 }
 
@@ -111,12 +111,12 @@ TEST(DepthRenderer, NearerThing_HidesTheFartherInAnyOrder) {
   const CameraFromMesh far_pose(Mat3d(Mat3d::Identity()), Vec3d(0.0, 0.0, 0.8));
   const TriangleMesh box = MakeCrackerBox();
   DepthRenderer first(kCamera, kWidth_px, kHeight_px);
-  first.DrawMesh(box, near_pose, 1);
+  first.DrawMesh(box, near_pose, 1U);
   first.DrawMesh(box, far_pose, 2);
   DepthRenderer second(kCamera, kWidth_px, kHeight_px);
   second.DrawMesh(box, far_pose, 2);
-  second.DrawMesh(box, near_pose, 1);
-  EXPECT_EQ(first.labels()[Pixel(81, 58)], 1);
+  second.DrawMesh(box, near_pose, 1U);
+  EXPECT_EQ(first.labels()[Pixel(81, 58)], 1U);
   EXPECT_TRUE(std::equal(first.labels().begin(), first.labels().end(), second.labels().begin()));
 }
 
@@ -127,7 +127,7 @@ TEST(DepthRenderer, MeshPartlyOutsideOfTheImageOrBehindTheCamera_DrawsWhatIsInVi
   renderer.DrawMesh(box, {Mat3d(Mat3d::Identity()), Vec3d(0.0, 0.0, -0.5)}, 9);
   renderer.DrawMesh(box, {Mat3d(Mat3d::Identity()), Vec3d(0.0, 0.0, 0.1)}, 9);
   EXPECT_EQ(renderer.labels()[Pixel(0, 58)], kLabel);
-  EXPECT_EQ(std::count(renderer.labels().begin(), renderer.labels().end(), 9), 0);
+  EXPECT_EQ(std::count(renderer.labels().begin(), renderer.labels().end(), 9U), 0);
 }
 
 }  // namespace

@@ -29,12 +29,14 @@ class DepthRenderer {
   /// Triangles seen from outside; those that reach behind the near limit are left out.
   /// @param T_cm Mesh in the camera frame.
   void DrawMesh(const TriangleMesh& mesh, const Transform<Camera, Object, double>& T_cm,
-                std::uint8_t label);
+                std::uint32_t label);
+  /// The same with a label of its own for each triangle: its index in the mesh plus one.
+  void DrawTriangles(const TriangleMesh& mesh, const Transform<Camera, Object, double>& T_cm);
 
   /// 1/z [1/m] row-major; 0 where nothing was drawn.
   [[nodiscard]] std::span<const float> inverse_depth_per_m() const { return inverse_depth_; }
   /// What is seen in each pixel.
-  [[nodiscard]] std::span<const std::uint8_t> labels() const { return labels_; }
+  [[nodiscard]] std::span<const std::uint32_t> labels() const { return labels_; }
   [[nodiscard]] int width_px() const { return width_; }
   [[nodiscard]] int height_px() const { return height_; }
 
@@ -46,14 +48,15 @@ class DepthRenderer {
     double u_px;
     double v_px;
   };
+  void Project(const TriangleMesh& mesh, const Transform<Camera, Object, double>& T_cm);
   void DrawTriangle(const ProjectedVertex& a, const ProjectedVertex& b, const ProjectedVertex& c,
-                    std::uint8_t label);
+                    std::uint32_t label);
 
   int width_;
   int height_;
   double fx_, fy_, cx_, cy_;
   std::vector<float> inverse_depth_;
-  std::vector<std::uint8_t> labels_;
+  std::vector<std::uint32_t> labels_;
   std::vector<ProjectedVertex> projected_;
 };
 
