@@ -2,6 +2,7 @@
 #include "disflow/host/simulation_options.h"
 
 #include <array>
+#include <cstdio>
 #include <limits>
 
 #include "disflow/host/option_value.h"
@@ -31,6 +32,18 @@ constexpr std::array kMasks{Choice<MaskKind>{"gt", MaskKind::kGt},
 constexpr std::array kFormats{Choice<DepthFormat>{"float", DepthFormat::kFloat32},
                               Choice<DepthFormat>{"z16", DepthFormat::kUint16}};
 
+template <class Number>
+struct Range {
+  Number min;
+  Number max;
+};
+constexpr Range<std::uint64_t> kSeed{0, std::numeric_limits<std::uint32_t>::max()};
+constexpr Range<int> kFrames{1, 1000000};
+constexpr Range<double> kFps{1.0, 1000.0};
+constexpr Range<int> kSide{32, 4096};
+constexpr Range<double> kFocal{16.0, 16384.0};
+constexpr Range<double> kDrop{0.0, 0.9};
+
 constexpr std::string_view kObjPrefix = "obj:";
 
 template <class Value, std::size_t kCount>
@@ -54,38 +67,34 @@ constexpr Option ChoiceOption(std::string_view key) {
           [] { return ListChoices(All(kChoices)); }};
 }
 
-template <auto kMember, auto kMin, auto kMax>
+template <auto kMember, const auto& kRange>
 constexpr Option NumberOption(std::string_view key) {
   return {key,
           [](std::string_view k, std::string_view value, SimulationOptions& options) {
-            auto& member = options.*kMember;
-            using Number = std::remove_reference_t<decltype(member)>;
-            return ParseNumber(k, value, static_cast<Number>(kMin), static_cast<Number>(kMax),
-                               member);
+            return ParseNumber(k, value, kRange.min, kRange.max, options.*kMember);
           },
           [] {
             std::array<char, 64> text{};
             (void)std::snprintf(text.data(), text.size(), "%.10g to %.10g",
-                                static_cast<double>(kMin), static_cast<double>(kMax));
+                                static_cast<double>(kRange.min), static_cast<double>(kRange.max));
             return std::string(text.data());
           }};
 }
 
 using Options = SimulationOptions;
-constexpr std::array kOptions{
-    ChoiceOption<&Options::motion, kMotions>("motion"),
-    ChoiceOption<&Options::noise, kNoises>("noise"),
-    NumberOption<&Options::seed, 0U, std::numeric_limits<std::uint32_t>::max()>("seed"),
-    NumberOption<&Options::frames, 1, 1000000>("frames"),
-    NumberOption<&Options::fps, 1.0, 1000.0>("fps"),
-    NumberOption<&Options::width_px, 32, 4096>("width"),
-    NumberOption<&Options::height_px, 32, 4096>("height"),
-    NumberOption<&Options::focal_px, 16.0, 16384.0>("focal"),
-    ChoiceOption<&Options::occluder, kOccluders>("occluder"),
-    NumberOption<&Options::drop, 0.0, 0.9>("drop"),
-    ChoiceOption<&Options::camera, kCameras>("camera"),
-    ChoiceOption<&Options::mask, kMasks>("mask"),
-    ChoiceOption<&Options::format, kFormats>("format")};
+constexpr std::array kOptions{ChoiceOption<&Options::motion, kMotions>("motion"),
+                              ChoiceOption<&Options::noise, kNoises>("noise"),
+                              NumberOption<&Options::seed, kSeed>("seed"),
+                              NumberOption<&Options::frames, kFrames>("frames"),
+                              NumberOption<&Options::fps, kFps>("fps"),
+                              NumberOption<&Options::width_px, kSide>("width"),
+                              NumberOption<&Options::height_px, kSide>("height"),
+                              NumberOption<&Options::focal_px, kFocal>("focal"),
+                              ChoiceOption<&Options::occluder, kOccluders>("occluder"),
+                              NumberOption<&Options::drop, kDrop>("drop"),
+                              ChoiceOption<&Options::camera, kCameras>("camera"),
+                              ChoiceOption<&Options::mask, kMasks>("mask"),
+                              ChoiceOption<&Options::format, kFormats>("format")};
 
 std::string ListKeys() {
   std::string list;
