@@ -26,7 +26,7 @@ Vec3d Entry(const fs::path& file, const std::vector<tinyobj::real_t>& values, in
                                std::to_string(values.size() / 3));
   }
   Vec3d entry(static_cast<double>(values[at]), static_cast<double>(values[at + 1]),
-                    static_cast<double>(values[at + 2]));
+              static_cast<double>(values[at + 2]));
   if (!entry.allFinite()) {
     throw InputError(file, std::string(what) + " " + std::to_string(index + 1) + " is not finite");
   }
