@@ -36,7 +36,7 @@ class BitSource {
       bits_ = random_.Bits();
       left_ = 64;
     }
-    const std::uint64_t value = bits_ & ((std::uint64_t{1} << count) - 1);
+    const auto value = static_cast<std::size_t>(bits_ & ((std::uint64_t{1} << count) - 1));
     bits_ >>= count;
     left_ -= count;
     return value;
