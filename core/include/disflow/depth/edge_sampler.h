@@ -28,10 +28,15 @@ class EdgeSampler {
     // is represented.
     int outline = 0;
     ForEachOutlinePixel(object, [&outline](int, int) { ++outline; });
-    const int stride = 1 + outline / Limits::kMaxEdgePoints;
-    int index = 0;
+    // Steps of the golden ratio: a regular stride would, row by row, meet the left outline alone.
+    constexpr float kGoldenRatio = 0.61803399F;
+    const float share = static_cast<float>(Limits::kMaxEdgePoints) /
+                        static_cast<float>(std::max(outline, Limits::kMaxEdgePoints));
+    float phase = 0.0F;
     ForEachOutlinePixel(object, [&](int u, int v) {
-      if (index++ % stride != 0) return;
+      phase += kGoldenRatio;
+      phase -= std::floor(phase);
+      if (phase >= share) return;
       EdgePoint edge;
       if (MakeEdge(depth, camera, object, surfaces, config, u, v, edge))
         (void)edges.push_back(edge);
@@ -40,7 +45,9 @@ class EdgeSampler {
 
  private:
   static constexpr int kDiskRadiusPx = 4;
-  static constexpr int kProbePx = 5;
+  static constexpr int kProbePx = 6;
+  static constexpr int kShadowPx = 64;
+  static constexpr int kBackgroundPixels = 3;
 
   template <class Mask, class Visitor>
   static void ForEachOutlinePixel(const Mask& object, Visitor&& visit) noexcept {
@@ -169,25 +176,26 @@ class EdgeSampler {
     return agreeing >= 2;
   }
 
-  /// Everything just outside of the outline is farther away or unseen, and something farther is
-  /// seen.
+  /// What is seen outside of the outline is farther away. Next to it there may be nothing: a stereo
+  /// sensor has no depth where its second view is occluded by the object itself.
   template <class At>
   [[nodiscard]] static bool EndsBeforeBackground(const DepthReader& depth,
                                                  const SamplerConfig& config, const At& at,
                                                  float depth_m) noexcept {
-    bool background = false;
-    for (int i = 1; i <= kProbePx; ++i) {
-      const Vec2 p = at(-static_cast<float>(i) - 1.0F);
+    int background = 0;
+    for (int i = 2; i <= kShadowPx && background < kBackgroundPixels;
+         i += i < kProbePx || background > 0 ? 1 : 2) {
+      const Vec2 p = at(-static_cast<float>(i));
       const float outside_m = depth.AtOrZero(static_cast<int>(std::lround(p.x())),
                                              static_cast<int>(std::lround(p.y())));
       if (outside_m <= 0.0F) continue;
       if (outside_m > depth_m + config.edge_background_gap_m) {
-        background = true;
-      } else if (i > 1) {
+        ++background;
+      } else if (i > 2) {
         return false;  // the first pixel may be a flying one
       }
     }
-    return background;
+    return background > 0;
   }
 };
 
