@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace disflow::apps {
 namespace {
@@ -43,6 +44,7 @@ std::optional<Consistency> Evaluate(const AlignedTrajectory& run,
                                     Error error_of) {
   Consistency result;
   for (const AlignedFrame& frame : run.frames) {
+    result.by_frame.push_back(std::numeric_limits<double>::quiet_NaN());
     const std::optional<Mat6d>& given = frame.row->*covariance;
     if (!given || frame.row->frame == run.aligned_frame) continue;
     const Eigen::LLT<Mat6d> factor(*given);
@@ -52,6 +54,7 @@ std::optional<Consistency> Evaluate(const AlignedTrajectory& run,
     }
     const Vec6d error = error_of(run, frame);
     result.nees.push_back(error.dot(factor.solve(error)));
+    result.by_frame.back() = result.nees.back();
   }
   const std::size_t total = result.nees.size() + result.singular;
   if (total == 0) return std::nullopt;

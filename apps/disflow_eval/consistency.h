@@ -20,7 +20,8 @@ inline constexpr double kChiSquare6At97_5 = 14.449375335447922;
 /// Normalised estimation error squared e' P^-1 e of a run. A consistent filter has mean 6 and 95 %
 /// of its frames between the bounds; larger values mean too small a covariance.
 struct Consistency {
-  std::vector<double> nees;  ///< Of the frames with a usable covariance.
+  std::vector<double> nees;      ///< Of the frames with a usable covariance.
+  std::vector<double> by_frame;  ///< Of all frames of the run; NaN where there is none.
   Statistics statistics;
   std::size_t singular = 0;     ///< Frames whose covariance is not positive definite.
   double share_inside = 0.0;    ///< Between the 2.5 % and 97.5 % bounds.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "report.h"
 
@@ -9,9 +10,9 @@ namespace disflow::apps {
 
 /// What is to be judged against what.
 struct EvaluationInput {
-  std::filesystem::path sequence_dir;
+  std::string sequence;  ///< Folder in the Fast-YCB layout, or "sim:...".
   std::filesystem::path csv;
-  std::filesystem::path model;  ///< Empty = sequence_dir/gt/model.obj.
+  std::filesystem::path model;  ///< Empty = the sequence's own.
   std::filesystem::path mesh;   ///< Reconstructed surface, tracker's object frame; empty = none.
 };
 

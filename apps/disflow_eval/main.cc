@@ -8,6 +8,7 @@
 
 #include "errors.h"
 #include "evaluation.h"
+#include "frame_table.h"
 #include "plots.h"
 #include "report.h"
 #include "summary.h"
@@ -26,6 +27,7 @@ enum ExitStatus : int { kDone = 0, kWrongUsage = 2, kInputFailed = 3, kOutputFai
 struct Options {
   EvaluationInput input;
   fs::path json;
+  fs::path frames;
   fs::path plots;
   fs::path summary;
 };
@@ -34,7 +36,7 @@ constexpr const char* kDescription =
     "Compares a trajectory of disflow_track with the truth and prints the metrics.";
 
 constexpr const char* kFooter =
-    "SEQ_DIR holds gt/poses.txt, gt/velocities.txt, data.txt and gt/model.obj (Fast-YCB layout).\n"
+    "A folder holds gt/poses.txt, gt/velocities.txt, data.txt and gt/model.obj (Fast-YCB layout).\n"
     "The estimate is aligned with the truth once, at its first frame. Frames without a row count\n"
     "as failed in the AUC figures; the other figures are over the frames that have one.\n"
     "\n"
@@ -64,6 +66,9 @@ int WriteAll(const Report& report, const Options& options) {
   if (!options.json.empty()) {
     attempt([&] { WriteFile(options.json, disflow::apps::FormatJson(report)); });
   }
+  if (!options.frames.empty()) {
+    attempt([&] { WriteFile(options.frames, disflow::apps::FormatFrames(report)); });
+  }
   if (!options.plots.empty()) {
     attempt([&] { plots = disflow::apps::WritePlots(report, options.plots); });
   }
@@ -83,15 +88,19 @@ int main(int argc, char** argv) {
   CLI::App app(kDescription, "disflow_eval");
   app.footer(kFooter);
   app.set_version_flag("--version", "disflow_eval " DISFLOW_VERSION " (" DISFLOW_BUILD ")");
-  app.add_option("SEQ_DIR", options.input.sequence_dir, "Sequence with ground truth")->required();
+  app.add_option("SEQUENCE", options.input.sequence,
+                 "Sequence with ground truth: a folder, or the sim: address that was tracked")
+      ->required();
   app.add_option("--csv", options.input.csv,
                  "Trajectory to judge, as disflow_track --csv writes it")
       ->required()
       ->type_name("FILE");
   app.add_option("--model", options.input.model,
-                 "Model of the object, .obj or .xyz, metres [SEQ_DIR/gt/model.obj]")
+                 "Model of the object, .obj or .xyz, metres [the sequence's own]")
       ->type_name("FILE");
   app.add_option("--json", options.json, "Write all metrics as JSON")->type_name("FILE");
+  app.add_option("--frames", options.frames, "Write the errors of every frame as CSV")
+      ->type_name("FILE");
   app.add_option(
          "--mesh", options.input.mesh,
          "Surface to judge, PLY in the tracker's object frame, as disflow_track --mesh writes it")

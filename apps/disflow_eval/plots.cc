@@ -23,24 +23,29 @@ namespace fs = std::filesystem;
 constexpr const char* kScript = "plots.gp";
 constexpr const char* kFrameData = "frames.dat";
 constexpr const char* kAddData = "add.dat";
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr int kCommandNotFound = 127;  // the shell's convention
 
 /// One line per frame; a blank line where frames are missing, so that the curve has a gap there.
 std::string FrameData(const Report& report) {
   const std::optional<std::size_t> total = report.estimates.FindStage("total");
-  std::string text = "# time_s e_t_mm e_a_deg v_cmps v_true_cmps w_degps w_true_degps total_ms\n";
+  std::string text =
+      "# time_s e_t_mm e_a_deg v_cmps v_true_cmps w_degps w_true_degps total_ms pose_nees "
+      "twist_nees\n";
   const double start_s = report.poses.frames.front().timestamp_s;
   for (std::size_t i = 0; i < report.poses.frames.size(); ++i) {
     const FrameError& error = report.poses.frames[i];
     const AlignedFrame& frame = report.run.frames[i];
     if (i > 0 && error.frame != report.poses.frames[i - 1].frame + 1) text += "\n";
-    text += Format("%.6f %.6f %.6f %.4f %.4f %.4f %.4f %.5f\n", error.timestamp_s - start_s,
-                   kMillimetres * error.translation_m, kDegrees * error.rotation_rad,
-                   kCentimetres * frame.twist_estimated.linear_mps.norm(),
-                   kCentimetres * frame.twist.linear_mps.norm(),
-                   kDegrees * frame.twist_estimated.angular_rps.norm(),
-                   kDegrees * frame.twist.angular_rps.norm(),
-                   total ? frame.row->stage_ms[*total] : std::numeric_limits<double>::quiet_NaN());
+    text += Format(
+        "%.6f %.6f %.6f %.4f %.4f %.4f %.4f %.5f %.5g %.5g\n", error.timestamp_s - start_s,
+        kMillimetres * error.translation_m, kDegrees * error.rotation_rad,
+        kCentimetres * frame.twist_estimated.linear_mps.norm(),
+        kCentimetres * frame.twist.linear_mps.norm(),
+        kDegrees * frame.twist_estimated.angular_rps.norm(),
+        kDegrees * frame.twist.angular_rps.norm(), total ? frame.row->stage_ms[*total] : kUnknown,
+        report.pose_consistency ? report.pose_consistency->by_frame[i] : kUnknown,
+        report.twist_consistency ? report.twist_consistency->by_frame[i] : kUnknown);
   }
   return text;
 }
@@ -150,6 +155,22 @@ void AddAccuracyPlot(const Report& report, Script& script) {
   script.End();
 }
 
+void AddConsistencyPlot(const Report& report, Script& script) {
+  const auto panel = [&script](const char* name, int column, const Consistency& consistency) {
+    script.Panel(Format(
+        "set xlabel 'time [s]'; set ylabel 'NEES of the %s'\nset logscale y\n"
+        "plot %.4f lc rgb other dt 2 title '95 %% of a truthful covariance lie between', "
+        "%.4f lc rgb other dt 2, 'frames.dat' using 1:%d lc rgb estimate title '%.1f %% do'\n"
+        "unset logscale",
+        name, kChiSquare6At2_5, kChiSquare6At97_5, column, kPercent * consistency.share_inside));
+  };
+  if (!report.pose_consistency) return;
+  script.Begin({"nees.png", "Squared error over covariance"}, 2, 1);
+  panel("pose", 9, *report.pose_consistency);
+  if (report.twist_consistency) panel("twist", 10, *report.twist_consistency);
+  script.End();
+}
+
 void AddTimePlot(const Report& report, Script& script) {
   const auto total = std::find_if(report.stages.begin(), report.stages.end(),
                                   [](const StageTiming& stage) { return stage.name == "total"; });
@@ -195,6 +216,7 @@ std::vector<Plot> WritePlots(const Report& report, const fs::path& dir) {
   AddErrorPlot(report, script);
   if (report.has_velocities) AddSpeedPlot(report, script);
   AddAccuracyPlot(report, script);
+  AddConsistencyPlot(report, script);
   AddTimePlot(report, script);
 
   WriteFile(dir / kFrameData, FrameData(report));

@@ -15,8 +15,9 @@ struct Plot {
   std::string title;
 };
 
-/// Draws errors over time, speeds against the truth, the ADD curve and the time per frame (what the
-/// report holds of these) as PNG with gnuplot. The script and its data stay beside the pictures.
+/// Draws errors over time, speeds against the truth, the ADD curve, the NEES and the time per frame
+/// (what the report holds of these) as PNG with gnuplot. The script and its data stay beside the
+/// pictures.
 /// @param dir Created if need be.
 /// @throws OutputError if a file cannot be written, gnuplot is not installed or fails.
 std::vector<Plot> WritePlots(const Report& report, const std::filesystem::path& dir);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose_metrics.h"
 
+#include <algorithm>
+
 #include "point_index.h"
 
 namespace disflow::apps {
@@ -47,6 +49,19 @@ std::vector<double> Column(const std::vector<FrameError>& frames, double FrameEr
   return values;
 }
 
+std::size_t LongestFalseTracking(const AlignedTrajectory& run,
+                                 const std::vector<FrameError>& errors) {
+  std::size_t longest = 0;
+  std::size_t current = 0;
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    const bool is_off = errors[i].translation_m > kFalseTranslation_m ||
+                        errors[i].rotation_rad > kFalseRotation_rad;
+    current = is_off && run.frames[i].row->state == "tracking" ? current + 1 : 0;
+    longest = std::max(longest, current);
+  }
+  return longest;
+}
+
 }  // namespace
 
 PoseMetrics EvaluatePoses(const AlignedTrajectory& run, const std::vector<Vec3d>& model_points) {
@@ -67,6 +82,7 @@ PoseMetrics EvaluatePoses(const AlignedTrajectory& run, const std::vector<Vec3d>
   metrics.angular_rps = Summarise(Column(metrics.frames, &FrameError::angular_rps));
   metrics.final_translation_m = metrics.frames.back().translation_m;
   metrics.final_rotation_rad = metrics.frames.back().rotation_rad;
+  metrics.longest_false_tracking = LongestFalseTracking(run, metrics.frames);
   return metrics;
 }
 

@@ -11,6 +11,10 @@ namespace disflow::apps {
 /// Threshold up to which ADD counts (the paper's tau).
 inline constexpr double kAddLimit_m = 0.10;
 
+/// Beyond either of these a pose that is called "tracking" is a false one.
+inline constexpr double kFalseTranslation_m = 0.02;
+inline constexpr double kFalseRotation_rad = 0.174532925199;  // 10 degrees
+
 /// Errors of one frame.
 struct FrameError {
   int frame = 0;
@@ -32,6 +36,9 @@ struct PoseMetrics {
   Statistics add_m, add_s_m, translation_m, rotation_rad, linear_mps, angular_rps;
   double final_translation_m = 0.0;  ///< Drift: the last frame's error.
   double final_rotation_rad = 0.0;
+  /// Longest stretch of frames in a row that claim the state "tracking" though their pose is off by
+  /// more than kFalse*: what a robot would act on wrongly.
+  std::size_t longest_false_tracking = 0;
 };
 
 /// @param model_points Points of the model, true object frame, not empty.

@@ -54,6 +54,7 @@ void AddPoses(const PoseMetrics& m, RowWriter& rows) {
            kDegrees * m.rotation_rad.max);
   rows.Add("final drift", "%.3f mm, %.3f deg", kMillimetres * m.final_translation_m,
            kDegrees * m.final_rotation_rad);
+  rows.Add("longest false 'tracking'", "%zu frames", m.longest_false_tracking);
 }
 
 void AddVelocities(const PoseMetrics& m, RowWriter& rows) {

@@ -59,7 +59,8 @@ std::string FormatJson(const Report& report) {
                {"translation_m", ToJson(m.translation_m)},
                {"rotation_deg", ToJson(m.rotation_rad, kDegrees)},
                {"final_drift_m", m.final_translation_m},
-               {"final_drift_deg", kDegrees * m.final_rotation_rad}};
+               {"final_drift_deg", kDegrees * m.final_rotation_rad},
+               {"longest_false_tracking_frames", m.longest_false_tracking}};
   if (report.has_velocities) {
     json["linear_velocity_mps"] = ToJson(m.linear_mps);
     json["angular_velocity_degps"] = ToJson(m.angular_rps, kDegrees);

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "depth_images.h"
 #include "disflow/depth/depth_reader.h"
 
 namespace disflow::apps {
@@ -38,16 +37,15 @@ void MarkSeen(const DepthFrame& frame, const TruePose& T_ct,
   }
 }
 
-std::vector<bool> FindSeen(const std::filesystem::path& sequence_dir, const GroundTruth& truth,
-                           const std::vector<SurfacePoint>& points) {
-  if (!std::filesystem::exists(sequence_dir / "cam_K.json")) return {};
-  DepthImages images(sequence_dir);
+std::vector<bool> FindSeen(const Sequence& sequence, const std::vector<SurfacePoint>& points) {
+  if (!sequence.image) return {};
   std::vector<bool> seen(points.size(), false);
   bool any_image = false;
-  for (std::size_t k = 0; k < truth.T_ct.size(); k += kFrameStride) {
-    if (!images.Has(truth.file_indices[k])) continue;
+  for (std::size_t k = 0; k < sequence.truth.T_ct.size(); k += kFrameStride) {
+    const std::optional<DepthFrame> frame = sequence.image(k);
+    if (!frame) continue;
     any_image = true;
-    MarkSeen(images.Load(truth.file_indices[k]), truth.T_ct[k], points, seen);
+    MarkSeen(*frame, sequence.truth.T_ct[k], points, seen);
   }
   if (!any_image) return {};
   return seen;

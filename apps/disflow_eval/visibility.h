@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <filesystem>
 #include <vector>
 
 #include "disflow/depth/depth_frame.h"
 #include "frames.h"
-#include "ground_truth.h"
-#include "surface.h"
+#include "sequence.h"
 
 namespace disflow::apps {
 
@@ -24,10 +22,9 @@ void MarkSeen(const DepthFrame& frame, const TruePose& T_ct,
 
 /// Which points the depth images of a sequence show; every few frames are looked at, since
 /// neighbours show nearly the same.
-/// @return One entry per point, or nothing if the sequence has no cam_K.json or no depth images.
+/// @return One entry per point, or nothing if the sequence has no depth images.
 /// @throws InputError if one of them is malformed.
-[[nodiscard]] std::vector<bool> FindSeen(const std::filesystem::path& sequence_dir,
-                                         const GroundTruth& truth,
+[[nodiscard]] std::vector<bool> FindSeen(const Sequence& sequence,
                                          const std::vector<SurfacePoint>& points);
 
 }  // namespace disflow::apps

@@ -33,10 +33,8 @@ TEST_P(SimulatedScene, IsTracked) {
                                     Path("run.csv"), "--mesh", Path("run.ply"), "--headless"},
                                    scratch());
   ASSERT_EQ(tracked.exit_status, 0) << tracked.err;
-  const apps::Report report = apps::Evaluate({.sequence_dir = Path("sequence"),
-                                              .csv = Path("run.csv"),
-                                              .model = {},
-                                              .mesh = Path("run.ply")});
+  const apps::Report report = apps::Evaluate(
+      {.sequence = Path("sequence"), .csv = Path("run.csv"), .model = {}, .mesh = Path("run.ply")});
   EXPECT_GE(report.poses.add_s_auc, scene.least_add_s_auc);
   ASSERT_TRUE(report.surface.has_value());
 }

@@ -101,6 +101,36 @@ TEST(ConsistencyTest, CovarianceThatIsNotPositiveDefinite_CountsAsOutside) {
   EXPECT_EQ(result->share_below_95, 0.0);
 }
 
+TEST(ConsistencyTest, KnownTwistError_IsWeighedAtTheTrackersOwnOrigin) {
+  MadeUpRun made = MakeRun(2);
+  EstimateRow& row = made.estimates.rows[1];
+  row.twist_covariance = Diagonal(0.01, 0.1);
+  row.twist.linear_mps += Vec3d(0.0, 0.02, 0.0);
+  row.twist.angular_rps += Vec3d(0.0, 0.0, 0.3);
+  const auto result = EvaluateTwistConsistency(Align(made.truth, made.estimates));
+  ASSERT_TRUE(result.has_value());
+  EXPECT_NEAR(result->nees[0], 4.0 + 9.0, 1e-9);
+}
+
+TEST(ConsistencyTest, ShareInside_CountsBothBounds) {
+  // Errors of 1, 2 and 4 standard deviations: NEES 1, 4 and 16; only 4 is between 1.24 and 14.45.
+  MadeUpRun made = MakeRun(4);
+  const double sigmas[] = {0.0, 1.0, 2.0, 4.0};
+  for (std::size_t k = 1; k < 4; ++k) {
+    EstimateRow& row = made.estimates.rows[k];
+    row.pose_covariance = Diagonal(0.001, 0.01);
+    row.T_co = EstimatedPose(Mat3d(row.T_co.rotation()),
+                             Vec3d(row.T_co.translation() + Vec3d(0.001 * sigmas[k], 0, 0)));
+  }
+  const auto result = EvaluatePoseConsistency(Align(made.truth, made.estimates));
+  ASSERT_TRUE(result.has_value());
+  EXPECT_NEAR(result->share_inside, 1.0 / 3.0, 1e-12);
+  EXPECT_NEAR(result->share_below_95, 2.0 / 3.0, 1e-12);
+  ASSERT_EQ(result->by_frame.size(), 4U);
+  EXPECT_TRUE(std::isnan(result->by_frame[0])) << "the aligned frame is exact by construction";
+  EXPECT_NEAR(result->by_frame[3], 16.0, 1e-6);
+}
+
 TEST(ConsistencyTest, NoCovarianceOrOnlyTheAlignedFrames_GivesNothing) {
   MadeUpRun made = MakeRun(3);
   EXPECT_FALSE(EvaluatePoseConsistency(Align(made.truth, made.estimates)).has_value());

@@ -30,6 +30,11 @@ std::string Image(std::uint64_t width, std::uint64_t height, float depth_m) {
 class DepthImagesTest : public testing::Test {
  protected:
   void SetUp() override { dir_.Write("cam_K.json", kCamera); }
+  /// A sequence of one frame whose model is a triangle.
+  void WriteTruth(const std::string& poses) {
+    dir_.Write("gt/poses.txt", poses);
+    dir_.Write("gt/model.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  }
   std::string RefusalOfImage(const std::string& bytes) {
     dir_.Write("depth/0.float", bytes);
     return MessageOf<InputError>([&] { (void)DepthImages(dir_.path()).Load(0); });
@@ -75,22 +80,18 @@ TEST_F(DepthImagesTest, CameraFileThatLacksOrBendsAnEntry_IsRefused) {
 
 TEST_F(DepthImagesTest, SequenceOfImages_ShowsThePointsOnTheirSurface) {
   dir_.Write("depth/0.float", Image(4, 3, 1.0F));
-  GroundTruth truth;
-  truth.T_ct.emplace_back(Mat3d(Mat3d::Identity()), Vec3d(0, 0, 0.5));
-  truth.file_indices = {0};
+  WriteTruth("0 0 0.5 0 0 1 0\n");
   std::vector<SurfacePoint> points(2);
   points[0].position = Vec3d(0, 0, 0.5);
   points[1].position = Vec3d(0, 0, 0.4);
-  EXPECT_EQ(FindSeen(dir_.path(), truth, points), (std::vector<bool>{true, false}));
+  EXPECT_EQ(FindSeen(OpenSequence(dir_.path()), points), (std::vector<bool>{true, false}));
 }
 
 TEST_F(DepthImagesTest, NoImagesOrNoCamera_MeansNotKnown) {
-  GroundTruth truth;
-  truth.T_ct.emplace_back();
-  truth.file_indices = {0};
-  EXPECT_TRUE(FindSeen(dir_.path(), truth, std::vector<SurfacePoint>(2)).empty());
+  WriteTruth("0 0 0 0 0 1 0\n");
+  EXPECT_TRUE(FindSeen(OpenSequence(dir_.path()), std::vector<SurfacePoint>(2)).empty());
   std::filesystem::remove(dir_.path() / "cam_K.json");
-  EXPECT_TRUE(FindSeen(dir_.path(), truth, std::vector<SurfacePoint>(2)).empty());
+  EXPECT_TRUE(FindSeen(OpenSequence(dir_.path()), std::vector<SurfacePoint>(2)).empty());
 }
 
 }  // namespace

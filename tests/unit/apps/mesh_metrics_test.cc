@@ -87,6 +87,31 @@ TEST(MeshMetricsTest, NothingKnownOfWhatWasSeen_IsNan) {
   EXPECT_TRUE(std::isnan(comparison.seen.f_score[0]));
 }
 
+TEST(MeshMetricsTest, TwoTriangles_HaveTheFiguresOfTheDrawing) {
+  // The model: unit right triangle in z = 0. The mesh: the same one lifted by 1.5 mm, and a copy
+  // 100 mm below that stands alone. Of the mesh half lies within 2 mm, of the model all does.
+  const auto triangle = [](double z_m) {
+    return std::array<Vec3d, 3>{Vec3d(0, 0, z_m), Vec3d(0.1, 0, z_m), Vec3d(0, 0.1, z_m)};
+  };
+  Surface model;
+  for (const Vec3d& corner : triangle(0.0)) model.vertices.push_back(corner);
+  model.triangles = {{0, 1, 2}};
+  Surface mesh;
+  for (const double z_m : {0.0015, -0.1}) {
+    for (const Vec3d& corner : triangle(z_m)) mesh.vertices.push_back(corner);
+  }
+  mesh.triangles = {{0, 1, 2}, {3, 5, 4}};  // the stray one faces down
+  const MeshMetrics m = CompareMeshes(mesh, model, SampleSurface(model, kMeshSamples), {}).whole;
+  EXPECT_NEAR(m.accuracy_m, 0.5 * (0.0015 + 0.1), 1e-5);
+  EXPECT_NEAR(m.completeness_m, 0.0015, 1e-9);
+  EXPECT_NEAR(m.chamfer_m, 0.5 * (m.accuracy_m + m.completeness_m), 1e-12);
+  EXPECT_NEAR(m.hausdorff_m, 0.1, 1e-9);
+  EXPECT_DOUBLE_EQ(m.f_score[0], 0.0);
+  EXPECT_NEAR(m.f_score[1], 2.0 * 0.5 / 1.5, 1e-4);  // precision 1/2, recall 1
+  EXPECT_NEAR(m.mesh_to_model_normal_rad, 0.5 * std::numbers::pi, 1e-3);
+  EXPECT_NEAR(m.model_to_mesh_normal_rad, 0.0, 1e-9);
+}
+
 TEST(MeshMetricsTest, PointClouds_AreComparedByTheirPoints) {
   Surface mesh;
   mesh.vertices = {Vec3d(0, 0, 0), Vec3d(1, 0, 0)};

@@ -101,5 +101,54 @@ TEST(PoseMetricsTest, VelocityErrors_AreMeasuredPerFrame) {
   EXPECT_NEAR(m.angular_rps.rms, 0.0, 1e-12);
 }
 
+TEST(PoseMetricsTest, AddAuc_IsTheMeanOfWhatEveryFrameLacksToTheLimit) {
+  // ADD of 0, 25, 50 and 200 mm: integrating the share of frames below d up to 100 mm gives
+  // (1 + 0.75 + 0.5 + 0) / 4.
+  MadeUpRun made = MakeRun(4);
+  const double offsets_m[] = {0.0, 0.025, 0.05, 0.2};
+  for (std::size_t k = 0; k < 4; ++k) {
+    EstimatedPose& T_co = made.estimates.rows[k].T_co;
+    T_co = EstimatedPose(Mat3d(T_co.rotation()),
+                         Vec3d(T_co.translation() + Vec3d(0, offsets_m[k], 0)));
+  }
+  const PoseMetrics m = EvaluatePoses(Align(made.truth, made.estimates), CuboidCorners());
+  EXPECT_NEAR(m.add_auc, 0.5625, 1e-12);
+  EXPECT_NEAR(m.translation_m.rms, std::sqrt((0.025 * 0.025 + 0.05 * 0.05 + 0.2 * 0.2) / 4), 1e-12);
+}
+
+TEST(PoseMetricsTest, VelocityOfAWronglyPlacedOrigin_IsComparedAtTheTrueOne) {
+  // The body spins about its true origin; the estimate puts that origin 0.1 m off along x and
+  // says, truthfully, how the point there moves.
+  MadeUpRun made = MakeRun(2);
+  const Vec3d spin_rps(0, 0, 2);
+  for (std::size_t k = 0; k < 2; ++k) {
+    made.truth.T_ct[k] = TruePose(Mat3d::Identity(), Vec3d(0, 0, 1));
+    made.truth.twists[k] = {Vec3d::Zero(), spin_rps};
+    EstimateRow& row = made.estimates.rows[k];
+    row.T_co = EstimatedPose(Mat3d::Identity(), Vec3d(0.1 * double(k), 0, 1));
+    row.twist = {spin_rps.cross(Vec3d(0.1 * double(k), 0, 0)), spin_rps};
+  }
+  const PoseMetrics m = EvaluatePoses(Align(made.truth, made.estimates), CuboidCorners());
+  EXPECT_NEAR(m.frames[1].translation_m, 0.1, 1e-12);
+  EXPECT_NEAR(m.frames[1].linear_mps, 0.0, 1e-12);
+}
+
+TEST(PoseMetricsTest, FalseTracking_IsTheLongestStretchThatClaimsToTrack) {
+  MadeUpRun made = MakeRun(12);
+  const char* const states[] = {"tracking", "tracking", "lost",     "tracking",
+                                "tracking", "tracking", "tracking", "degraded",
+                                "tracking", "tracking", "tracking", "tracking"};
+  for (std::size_t k = 0; k < 12; ++k) {
+    EstimateRow& row = made.estimates.rows[k];
+    row.state = states[k];
+    const double off_m = k == 0 || k == 10 ? 0.0 : 0.021;
+    row.T_co = EstimatedPose(Mat3d(row.T_co.rotation()),
+                             Vec3d(row.T_co.translation() + Vec3d(off_m, 0, 0)));
+  }
+  const PoseMetrics m = EvaluatePoses(Align(made.truth, made.estimates), CuboidCorners());
+  EXPECT_EQ(m.longest_false_tracking, 4U)
+      << "frames 3 to 6; the others are lost, degraded or right";
+}
+
 }  // namespace
 }  // namespace disflow::apps

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "disflow/depth/depth_frame.h"
+#include "ground_truth.h"
+#include "surface.h"
+
+namespace disflow::apps {
+
+/// Depth image of frame k, or nothing if there is none; its view stays valid until the next call.
+using ImageSource = std::function<std::optional<DepthFrame>(std::size_t k)>;
+
+/// A sequence with ground truth.
+struct Sequence {
+  GroundTruth truth;
+  std::string model_name;        ///< Where the model came from; empty = the sequence has none.
+  std::optional<Surface> model;  ///< True object frame, metres.
+  ImageSource image;             ///< Empty if the sequence has no images.
+};
+
+/// Opens a folder in the Fast-YCB layout, or a simulation by the address that disflow_track takes
+/// ("sim:box?motion=fast"): the same images, rendered anew where they are asked for.
+/// @param model_file Used in place of the sequence's own model unless empty.
+/// @throws InputError naming file or address and reason.
+[[nodiscard]] Sequence OpenSequence(const std::string& address,
+                                    const std::filesystem::path& model_file = {});
+
+}  // namespace disflow::apps

@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs the project's programs: track a simulated sequence, judge the trajectory."""
+
+import concurrent.futures
+import dataclasses
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+
+import figures
+
+
+@dataclasses.dataclass(frozen=True)
+class Job:
+    """One sequence to track."""
+
+    name: str  # Of the row or variant.
+    scene: str
+    seed: int
+    settings: tuple = ()  # "name=value"
+    mesh: bool = False
+
+    @property
+    def address(self):
+        return f"sim:{self.scene}&seed={self.seed}"
+
+    @property
+    def stem(self):
+        """A file name of its own."""
+        return re.sub(r"[^a-z0-9]+", "-", f"{self.name}-{self.scene}-{self.seed}".lower()).strip("-")
+
+
+class Programs:
+    """The programs of one build and a folder for what they write."""
+
+    def __init__(self, bin_dir, out_dir):
+        self.bin_dir = pathlib.Path(bin_dir)
+        self.out_dir = pathlib.Path(out_dir)
+        (self.out_dir / "runs").mkdir(parents=True, exist_ok=True)
+
+    def file(self, job, ending):
+        return self.out_dir / "runs" / (job.stem + ending)
+
+    def has(self, program):
+        return (self.bin_dir / program).exists()
+
+    def call(self, program, *words, may_fail_with=()):
+        """Standard output of a program. A failure that is not expected ends the suite with its message."""
+        done = subprocess.run(
+            [self.bin_dir / program, *map(str, words)], capture_output=True, text=True, check=False
+        )
+        if done.returncode not in (0, *may_fail_with):
+            raise RuntimeError(f"{program} ended with {done.returncode}: {done.stderr.strip()}")
+        return None if done.returncode else done.stdout
+
+    def track(self, job):
+        """Figures of a run; the trajectory, errors and mesh stay in the folder."""
+        words = ["--sensor", job.address, "--csv", self.file(job, ".csv"), "--headless"]
+        for setting in job.settings:
+            words += ["--set", setting]
+        if job.mesh:
+            words += ["--mesh", self.file(job, ".ply")]
+        # 3: not one frame could be tracked. That is a result, not an accident.
+        if self.call("disflow_track", *words, may_fail_with=(3,)) is None:
+            return dict(figures.FAILED)
+        return self.judge(job, self.file(job, ".ply") if job.mesh else None)
+
+    def judge(self, job, mesh=None, ending=""):
+        report = self.file(job, ending + ".json")
+        words = [job.address, "--csv", self.file(job, ".csv"), "--json", report]
+        words += ["--mesh", mesh] if mesh else ["--frames", self.file(job, ".frames.csv")]
+        self.call("disflow_eval", *words)
+        return figures.read_all(json.loads(report.read_text(encoding="utf-8")))
+
+    def tracker_bytes(self, profile):
+        """sizeof(Tracker<profile>), as disflow_footprint prints it."""
+        lines = self.call("disflow_footprint").splitlines()
+        columns = [cell.strip() for cell in lines[0].split("|")]
+        for line in lines:
+            if "Tracker" in line:
+                return int(line.split("|")[columns.index(profile)])
+        raise RuntimeError("disflow_footprint prints no row 'Tracker'")
+
+
+def run_all(jobs, work, parallel=None):
+    """Calls work(job) for all jobs, some at a time. @return job -> result, in the order of the jobs."""
+    results = {}
+    with concurrent.futures.ThreadPoolExecutor(parallel or os.cpu_count()) as pool:
+        futures = {pool.submit(work, job): job for job in jobs}
+        try:
+            for future in concurrent.futures.as_completed(futures):
+                results[futures[future]] = future.result()
+                print(f"\r{len(results)} of {len(jobs)} runs", end="", file=sys.stderr, flush=True)
+        finally:
+            pool.shutdown(cancel_futures=True)
+            print(file=sys.stderr)
+    return {job: results[job] for job in jobs}

@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The simulated sequences of the accuracy table and what is asked of each."""
+
+import dataclasses
+
+from figures import Goal
+
+
+@dataclasses.dataclass(frozen=True)
+class Row:
+    """One kind of sequence; every seed makes another motion, noise and view of it."""
+
+    name: str
+    scene: str  # What follows "sim:", but for the seed.
+    goals: tuple = ()
+    like: str = ""  # Row whose ADD-AUC this one shall come near to.
+    mesh: bool = False  # The surface is judged too.
+    timed: bool = False  # Run once more, alone, for the times.
+
+
+# Points of ADD-AUC that a disturbance may cost.
+NEAR = 0.6
+
+# Shares of frames inside the 95 % bounds of the NEES, asked of every noisy sequence.
+CONSISTENT = tuple(
+    Goal(figure, relation, limit)
+    for figure in ("pose_nees", "twist_nees")
+    for relation, limit in ((">=", 80.0), ("<=", 99.0))
+)
+
+SURFACE = (
+    Goal("f_1mm", ">=", 0.95),
+    Goal("f_2mm", ">=", 0.99),
+    Goal("chamfer", "<=", 0.5),
+    Goal("normal_out", "<=", 5.0),
+    Goal("normal_back", "<=", 5.0),
+)
+
+# Of the timed rows.
+SPEED = (Goal("median_ms", "<=", 1.2), Goal("p99_ms", "<=", 2.5))
+MEMORY_LIMIT_BYTES = 1 << 20
+
+
+def _accuracy(add_auc, e_t, e_a, v, w):
+    limits = {"e_t": e_t, "e_a": e_a, "v": v, "w": w}
+    return (Goal("add_auc", ">=", add_auc),) + tuple(Goal(name, "<=", limit) for name, limit in limits.items())
+
+
+def _rows():
+    rows = []
+
+    def add(thing, motion, noise, goals=(), extra="", label="", **more):
+        name = f"{thing}, {motion}, {noise}" + (f", {label}" if label else "")
+        scene = f"{thing}?motion={motion}&noise={noise}" + (f"&{extra}" if extra else "")
+        if noise != "clean":
+            goals = tuple(goals) + CONSISTENT
+        rows.append(Row(name, scene, tuple(goals), **more))
+
+    add("box", "fast", "clean", _accuracy(99.85, 0.2, 0.05, 0.9, 3.0))
+    add("bottle", "fast", "clean", _accuracy(99.95, 0.1, 0.08, 0.8, 3.0))
+    add("box", "fast", "d415", _accuracy(99.2, 0.9, 0.4, 1.8, 7.5), timed=True)
+    add("bottle", "fast", "d415", _accuracy(99.6, 0.35, 0.5, 1.0, 9.0), timed=True)
+    for noise, limit in (("clean", 99.6), ("d415", 98.8)):
+        for thing in ("box", "bottle"):
+            add(thing, "flying", noise, (Goal("add_auc", ">=", limit),))
+    drift = (Goal("drift_m", "<=", 0.3), Goal("drift_deg", "<=", 0.15))
+    add("box", "rotate360", "d415", drift)
+    add("bottle", "rotate360", "d415", drift + SURFACE, mesh=True)
+    add("bottle", "rotate360", "clean", mesh=True)
+    for extra, label in (
+        ("mask=sloppy", "sloppy mask"),
+        ("mask=none", "no mask"),
+        ("occluder=arm", "arm in front"),
+        ("drop=0.2", "20 % dropped"),
+        ("camera=moving", "moving camera"),
+    ):
+        for thing in ("box", "bottle"):
+            timed = thing == "box" and extra == "mask=none"
+            add(thing, "fast", "d415", (), extra, label, like=f"{thing}, fast, d415", timed=timed)
+    symmetric = (Goal("add_s_auc", ">=", 99.0), Goal("drift_m", "<=", 2.0))
+    for noise in ("clean", "d415"):
+        for thing in ("can", "doughnut"):
+            seen_seams = (Goal("add_auc", ">=", 99.0),) if (thing, noise) == ("can", "clean") else ()
+            add(thing, "fast", noise, symmetric + seen_seams)
+    return tuple(rows)
+
+
+ROWS = _rows()

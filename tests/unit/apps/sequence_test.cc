@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sequence.h"
+
+#include <gtest/gtest.h>
+
+#include "errors.h"
+#include "scratch_dir.h"
+#include "visibility.h"
+
+namespace disflow::apps {
+namespace {
+
+TEST(SequenceTest, Simulation_CarriesTruthModelAndImages) {
+  const Sequence sequence = OpenSequence("sim:bottle?motion=fast&frames=6&width=160&height=96");
+  ASSERT_EQ(sequence.truth.T_ct.size(), 6U);
+  EXPECT_EQ(sequence.truth.twists.size(), 6U);
+  EXPECT_EQ(sequence.model_name, "bottle");
+  ASSERT_TRUE(sequence.image(5).has_value());
+  EXPECT_EQ(sequence.image(5)->depth.width_px, 160);
+  // Poses, model and images belong together: the bottle is where its pose says.
+  const std::vector<SurfacePoint> points = SampleSurface(*sequence.model, 500);
+  std::vector<bool> seen(points.size(), false);
+  MarkSeen(*sequence.image(0), sequence.truth.T_ct[0], points, seen);
+  const auto seen_count = std::count(seen.begin(), seen.end(), true);
+  EXPECT_GT(seen_count, 100);
+  EXPECT_LT(seen_count, 350) << "the far side cannot be seen";
+}
+
+TEST(SequenceTest, DroppedFrames_AreNoFramesOfTheSequence) {
+  const Sequence sequence = OpenSequence("sim:box?frames=40&drop=0.5&width=160&height=96");
+  EXPECT_LT(sequence.truth.T_ct.size(), 35U);
+  ASSERT_EQ(sequence.truth.stamps_s.size(), sequence.truth.T_ct.size());
+  const double last_s = sequence.truth.stamps_s.back() - sequence.truth.stamps_s.front();
+  EXPECT_GT(last_s, (static_cast<double>(sequence.truth.T_ct.size()) - 1) / 30.0 + 0.01);
+}
+
+TEST(SequenceTest, WrongAddresses_AreRefusedBySayingWhatIsAllowed) {
+  for (const auto& [address, part] :
+       {std::pair("sim:cube", "doughnut"), std::pair("sim:box?motion=slow", "flying"),
+        std::pair("sim:obj:/no/such.obj", "such.obj"),
+        std::pair("/no/such/folder", "is no folder")}) {
+    EXPECT_PRED_FORMAT2(testing::IsSubstring, part,
+                        MessageOf<InputError>([a = address] { (void)OpenSequence(a); }));
+  }
+}
+
+TEST(SequenceTest, FolderWithoutModel_AsksForOneAndTakesIt) {
+  const ScratchDir dir;
+  dir.Write("gt/poses.txt", "0 0 0.5 0 0 1 0\n");
+  const std::string message =
+      MessageOf<InputError>([&] { (void)OpenSequence(dir.path().string()); });
+  EXPECT_PRED_FORMAT2(testing::IsSubstring, "--model", message);
+  const auto model = dir.Write("points.xyz", "0 0 0\n0 0 1\n");
+  EXPECT_EQ(OpenSequence(dir.path().string(), model).model->vertices.size(), 2U);
+}
+
+}  // namespace
+}  // namespace disflow::apps

@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The suite's own arithmetic: what counts as a goal that is met, and what is written where."""
+
+import json
+import pathlib
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "apps" / "disflow_suite"))
+
+import ablation
+import accuracy
+import figures
+import main
+import pages
+import runs
+import sequences
+
+
+def run_with(**values):
+    return dict({name: 1.0 for name in figures.FIGURES}, **values)
+
+
+class Figures(unittest.TestCase):
+    def test_report_of_disflow_eval_is_shown_in_the_units_of_the_goals(self):
+        report = {"add_auc_percent": 99.5, "translation_m": {"rmse": 0.0009}, "pose_consistency": {}}
+        read = figures.read_all(report)
+        self.assertAlmostEqual(read["add_auc"], 99.5)
+        self.assertAlmostEqual(read["e_t"], 0.9)
+        self.assertIsNone(read["pose_nees"])
+        self.assertIsNone(read["f_1mm"])
+
+    def test_goal_is_judged_by_the_value_that_is_shown(self):
+        goal = figures.Goal("add_auc", ">=", 99.85)
+        self.assertTrue(goal.is_met(99.846))
+        self.assertFalse(goal.is_met(99.844))
+        self.assertFalse(goal.is_met(None))
+        self.assertFalse(figures.Goal("e_t", "<=", 0.9).is_met(0.91))
+
+    def test_mean_does_not_leave_out_the_seed_that_failed(self):
+        summary = figures.Summary({1: run_with(add_auc=100.0, e_t=0.1), 2: figures.FAILED})
+        self.assertAlmostEqual(summary.mean("add_auc"), 50.0)
+        self.assertIsNone(summary.mean("e_t"))
+        self.assertEqual(summary.least("add_auc"), 0.0)
+
+
+class Table(unittest.TestCase):
+    def results(self, **plain):
+        rows = [row for row in sequences.ROWS if row.name.startswith("box, fast, d415")]
+        results = accuracy.Results(rows, [1])
+        results.summaries = {row.name: figures.Summary({1: run_with(add_auc=99.0)}) for row in rows}
+        results.summaries["box, fast, d415"] = figures.Summary({1: run_with(**plain)})
+        return results
+
+    def goals(self, results, name):
+        row = next(row for row in results.rows if row.name == name)
+        return [goal.limit for goal in accuracy._goals_of(results, row) if goal.figure == "add_auc"]
+
+    def test_disturbed_row_is_held_against_its_plain_counterpart(self):
+        self.assertEqual(self.goals(self.results(add_auc=99.4), "box, fast, d415, no mask"), [98.8])
+
+    def test_missed_goals_are_named(self):
+        results = self.results(add_auc=99.7)
+        accuracy._check_goals(results)
+        self.assertIn("box, fast, d415, no mask: ADD-AUC 99.00 % (≥ 99.1)", accuracy.missed_goals(results))
+
+    def test_surface_has_to_beat_the_baseline(self):
+        row = next(row for row in sequences.ROWS if row.name == "bottle, rotate360, clean")
+        results = accuracy.Results([row], [1])
+        results.summaries = {row.name: figures.Summary({1: run_with(chamfer=0.4)})}
+        results.baseline = {row.name: figures.Summary({1: run_with(chamfer=0.3)})}
+        goals = {goal.figure: goal for goal in accuracy._goals_of(results, row)}
+        self.assertFalse(goals["chamfer"].is_met(results.mean(row.name, "chamfer")))
+
+    def test_page_holds_every_row_and_json_every_figure(self):
+        results = self.results(add_auc=99.4)
+        text = accuracy.page(results, [("images/a.png", "A picture")])
+        for row in results.rows:
+            self.assertIn(f"| {row.name} |", text)
+        self.assertIn("![A picture](images/a.png)", text)
+        data = json.loads(json.dumps(results.json()))
+        self.assertEqual(data["rows"]["box, fast, d415"]["seeds"]["1"]["add_auc"], 99.4)
+
+
+class Rows(unittest.TestCase):
+    def test_names_and_files_are_unique(self):
+        jobs = [runs.Job(row.name, row.scene, seed) for row in sequences.ROWS for seed in (1, 2)]
+        jobs += [runs.Job(v.name, s, 1, v.settings) for v in ablation.VARIANTS for s in ablation.SCENES.values()]
+        self.assertEqual(len({job.stem for job in jobs}), len(jobs))
+
+    def test_counterparts_exist(self):
+        names = {row.name for row in sequences.ROWS}
+        self.assertTrue(all(row.like in names for row in sequences.ROWS if row.like))
+
+    def test_every_noisy_row_has_to_be_consistent(self):
+        for row in sequences.ROWS:
+            asked = {goal.figure for goal in row.goals}
+            self.assertEqual("noise=d415" in row.scene, "pose_nees" in asked and "twist_nees" in asked, row.name)
+
+
+class Pages(unittest.TestCase):
+    def test_only_what_is_between_the_markers_changes(self):
+        with tempfile.TemporaryDirectory() as folder:
+            page = pathlib.Path(folder) / "page.md"
+            page.write_text("before\n<!-- x:begin (made) -->\nold\n<!-- x:end -->\nafter\n", encoding="utf-8")
+            pages.replace_part(page, "x", "new\n")
+            pages.replace_part(page, "x", "newer\n")
+            wanted = "before\n<!-- x:begin (made) -->\nnewer\n\n<!-- x:end -->\nafter\n"
+            self.assertEqual(page.read_text(encoding="utf-8"), wanted)
+
+    def test_page_without_markers_is_left_alone(self):
+        with tempfile.TemporaryDirectory() as folder:
+            page = pathlib.Path(folder) / "page.md"
+            page.write_text("all by hand\n", encoding="utf-8")
+            with self.assertRaisesRegex(RuntimeError, "x:begin"):
+                pages.replace_part(page, "x", "new")
+            self.assertEqual(page.read_text(encoding="utf-8"), "all by hand\n")
+
+    def test_the_pages_in_the_tree_have_their_markers(self):
+        for name, part in (("results.md", "accuracy"), ("method.md", "ablation")):
+            text = (main.ROOT / "docs" / name).read_text(encoding="utf-8")
+            self.assertIn(f"<!-- {part}:begin", text)
+            self.assertIn(f"<!-- {part}:end -->", text)
+
+
+if __name__ == "__main__":
+    unittest.main()
