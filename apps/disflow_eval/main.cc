@@ -8,6 +8,7 @@
 
 #include "errors.h"
 #include "evaluation.h"
+#include "fast_ycb.h"
 #include "frame_table.h"
 #include "plots.h"
 #include "report.h"
@@ -30,6 +31,7 @@ struct Options {
   fs::path frames;
   fs::path plots;
   fs::path summary;
+  disflow::apps::FastYcbOptions fast_ycb;
 };
 
 constexpr const char* kDescription =
@@ -42,8 +44,7 @@ constexpr const char* kFooter =
     "\n"
     "Exit status: 0 done, 2 wrong usage, 3 an input failed, 4 an output failed.";
 
-void PrintTable(const Report& report) {
-  const std::string table = disflow::apps::FormatTable(report);
+void Print(const std::string& table) {
   (void)std::fwrite(table.data(), 1, table.size(), stdout);
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
     throw OutputError("standard output", "cannot be written");
@@ -62,7 +63,7 @@ int WriteAll(const Report& report, const Options& options) {
     }
   };
   std::vector<disflow::apps::Plot> plots;
-  attempt([&] { PrintTable(report); });
+  attempt([&] { Print(disflow::apps::FormatTable(report)); });
   if (!options.json.empty()) {
     attempt([&] { WriteFile(options.json, disflow::apps::FormatJson(report)); });
   }
@@ -81,6 +82,18 @@ int WriteAll(const Report& report, const Options& options) {
   return status;
 }
 
+/// Judges the whole of Fast-YCB.
+int RunFastYcb(disflow::apps::FastYcbOptions options) {
+  options.track = fs::read_symlink("/proc/self/exe").parent_path() / "disflow_track";
+  const auto results = EvaluateFastYcb(options, [](const std::string& line) {
+    std::fprintf(stderr, "disflow_eval: %s\n", line.c_str());
+  });
+  const std::string tables = FormatFastYcb(results);
+  WriteFile(options.out / "tables.md", tables);
+  Print(tables);
+  return kDone;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -89,11 +102,9 @@ int main(int argc, char** argv) {
   app.footer(kFooter);
   app.set_version_flag("--version", "disflow_eval " DISFLOW_VERSION " (" DISFLOW_BUILD ")");
   app.add_option("SEQUENCE", options.input.sequence,
-                 "Sequence with ground truth: a folder, or the sim: address that was tracked")
-      ->required();
+                 "Sequence with ground truth: a folder, or the sim: address that was tracked");
   app.add_option("--csv", options.input.csv,
                  "Trajectory to judge, as disflow_track --csv writes it")
-      ->required()
       ->type_name("FILE");
   app.add_option("--model", options.input.model,
                  "Model of the object, .obj or .xyz, metres [the sequence's own]")
@@ -109,13 +120,38 @@ int main(int argc, char** argv) {
       ->type_name("DIR");
   app.add_option("--summary", options.summary, "Write a one-page summary in Markdown")
       ->type_name("FILE");
+  auto& fast_ycb = options.fast_ycb;
+  app.add_option("--fast-ycb", fast_ycb.data,
+                 "Track and judge all sequences of the Fast-YCB data set in this folder, and print "
+                 "the paper's tables with our figures beside the published ones")
+      ->type_name("DIR");
+  app.add_option("--models", fast_ycb.models,
+                 "With --fast-ycb: folder of the objects' models, e.g. 003_cracker_box.obj, in the "
+                 "pose convention of gt/poses.txt, metres [DIR/OBJECT/gt/model.obj]")
+      ->type_name("DIR");
+  app.add_option("--out", fast_ycb.out,
+                 "With --fast-ycb: folder for trajectories, meshes and tables [fast-ycb-results]")
+      ->type_name("DIR");
+  app.add_option("--config", fast_ycb.config, "With --fast-ycb: settings for disflow_track, TOML")
+      ->type_name("FILE");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kDone : kWrongUsage;
   }
+  const bool whole_set = !fast_ycb.data.empty();
+  if (whole_set == !options.input.sequence.empty() || (!whole_set && options.input.csv.empty())) {
+    std::fprintf(
+        stderr,
+        "disflow_eval: either SEQUENCE and --csv, or --fast-ycb; see disflow_eval --help\n");
+    return kWrongUsage;
+  }
   try {
+    if (whole_set) return RunFastYcb(fast_ycb);
     return WriteAll(disflow::apps::Evaluate(options.input), options);
+  } catch (const OutputError& error) {
+    std::fprintf(stderr, "disflow_eval: %s\n", error.what());
+    return kOutputFailed;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "disflow_eval: %s\n", error.what());
     return kInputFailed;

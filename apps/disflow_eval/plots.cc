@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "plots.h"
 
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <limits>
 
+#include "child_program.h"
 #include "errors.h"
 #include "text_file.h"
 #include "units.h"
@@ -24,7 +20,6 @@ constexpr const char* kScript = "plots.gp";
 constexpr const char* kFrameData = "frames.dat";
 constexpr const char* kAddData = "add.dat";
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-constexpr int kCommandNotFound = 127;  // the shell's convention
 
 /// One line per frame; a blank line where frames are missing, so that the curve has a gap there.
 std::string FrameData(const Report& report) {
@@ -186,25 +181,6 @@ void AddTimePlot(const Report& report, Script& script) {
   script.End();
 }
 
-/// Runs gnuplot on the script in a folder, without a shell and without the user's start-up files.
-/// @return Its exit status, or kCommandNotFound.
-int RunGnuplot(const fs::path& dir) {
-  const pid_t child = ::fork();
-  if (child < 0) throw OutputError(dir, std::string("fork failed: ") + std::strerror(errno));
-  if (child == 0) {
-    if (::chdir(dir.c_str()) != 0) ::_exit(EXIT_FAILURE);
-    std::string words[] = {"gnuplot", "-d", kScript};
-    char* const arguments[] = {words[0].data(), words[1].data(), words[2].data(), nullptr};
-    ::execvp(arguments[0], arguments);
-    ::_exit(kCommandNotFound);
-  }
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0) {
-    if (errno != EINTR) throw OutputError(dir, "lost track of gnuplot");
-  }
-  return WIFEXITED(status) ? WEXITSTATUS(status) : EXIT_FAILURE;
-}
-
 }  // namespace
 
 std::vector<Plot> WritePlots(const Report& report, const fs::path& dir) {
@@ -222,8 +198,9 @@ std::vector<Plot> WritePlots(const Report& report, const fs::path& dir) {
   WriteFile(dir / kFrameData, FrameData(report));
   WriteFile(dir / kAddData, AddData(report));
   WriteFile(dir / kScript, script.text());
-  const int status = RunGnuplot(dir);
-  if (status == kCommandNotFound) {
+  // -d: without the user's start-up files.
+  const int status = RunProgram({"gnuplot", "-d", kScript}, dir);
+  if (status == kProgramNotFound) {
     throw OutputError(dir,
                       "no plots: gnuplot is not installed (Debian: gnuplot-nox); "
                       "plots.gp and its data are there to draw them later");

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "child_process.h"
+#include "scratch_folder.h"
+
+namespace disflow::test {
+namespace {
+
+class SimulatedSequence : public ScratchFolderTest {};
+
+/// Everything of the printed table but the names of files and the times.
+std::string Figures(const std::string& table) {
+  return table.substr(0, table.find("Time per frame"));
+}
+
+TEST_F(SimulatedSequence, JudgedByItsAddress_HasTheFiguresOfItsFiles) {
+  constexpr const char* kAddress =
+      "sim:bottle?motion=fast&noise=d415&seed=4&frames=20&drop=0.2&width=320&height=180";
+  ASSERT_EQ(RunTrack({"--sensor", kAddress, "--csv", Path("run.csv"), "--mesh", Path("run.ply"),
+                      "--headless"},
+                     scratch())
+                .exit_status,
+            0);
+  ASSERT_EQ(
+      RunSim({Path("files"), "--object", "bottle", "--motion", "fast", "--noise", "d415", "--seed",
+              "4", "--frames", "20", "--drop", "0.2", "--width", "320", "--height", "180"},
+             scratch())
+          .exit_status,
+      0);
+  std::string figures[2];
+  int i = 0;
+  for (const std::string& sequence : {std::string(kAddress), Path("files")}) {
+    const Outcome outcome = ChildProcess(DISFLOW_EVAL,
+                                         {sequence, "--csv", Path("run.csv"), "--mesh",
+                                          Path("run.ply"), "--frames", Path("frames.csv")},
+                                         scratch())
+                                .Wait();
+    ASSERT_EQ(outcome.exit_status, 0) << outcome.err;
+    figures[i++] = Figures(outcome.out);
+  }
+  EXPECT_EQ(figures[0], figures[1]);
+  const std::string frames = ReadFile(Path("frames.csv"));
+  const auto lines = std::count(frames.begin(), frames.end(), '\n');
+  EXPECT_GT(lines, 10);
+  EXPECT_LT(lines, 21) << "dropped frames have no line";
+}
+
+}  // namespace
+}  // namespace disflow::test
