@@ -85,6 +85,11 @@ class Programs:
         raise RuntimeError("disflow_footprint prints no row 'Tracker'")
 
 
+def _show_progress(done, total):
+    if sys.stderr.isatty():
+        print(f"\r{done} of {total} runs", end="\n" if done == total else "", file=sys.stderr, flush=True)
+
+
 def run_all(jobs, work, parallel=None):
     """Calls work(job) for all jobs, some at a time. @return job -> result, in the order of the jobs."""
     results = {}
@@ -93,8 +98,7 @@ def run_all(jobs, work, parallel=None):
         try:
             for future in concurrent.futures.as_completed(futures):
                 results[futures[future]] = future.result()
-                print(f"\r{len(results)} of {len(jobs)} runs", end="", file=sys.stderr, flush=True)
+                _show_progress(len(results), len(jobs))
         finally:
             pool.shutdown(cancel_futures=True)
-            print(file=sys.stderr)
     return {job: results[job] for job in jobs}
