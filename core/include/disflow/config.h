@@ -37,7 +37,7 @@ struct SamplerConfig {
   float max_bend_ratio = 5e-4F;
   float inverse_depth_std_per_m = 0.0F;
   float min_inverse_depth_std_per_m = 2e-5F;
-  float sample_floor_m = 1e-4F;
+  float sample_floor_m = 2e-5F;
   float edge_min_cos_incidence = 0.3F;
   float edge_background_gap_m = 0.02F;
 };
@@ -47,9 +47,9 @@ struct FieldConfig {
   float cell_size_m = 0.02F;
   float length_scale_m = 0.06F;
   float prior_gradient_std = 0.25F;
-  float value_noise_m = 1e-4F;
-  float normal_noise = 0.05F;
-  float merge_radius_m = 0.005F;
+  float value_noise_m = 3e-5F;
+  float normal_noise = 0.1F;
+  float merge_radius_m = 0.004F;
   float overlap_m = 0.006F;
   float crease_cos = 0.7F;
   float reject_floor_m = 0.004F;
@@ -63,7 +63,7 @@ struct FieldConfig {
 struct RegistrationConfig {
   int iterations = 8;
   float robust_scale_start_m = 0.010F;
-  float robust_scale_sigmas = 2.5F;
+  float robust_scale_sigmas = 1.0F;
   float truncation_m = 0.03F;
   float min_normal_cos = 0.6F;
   float match_radius_m = 0.010F;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "disflow/config.h"
+#include "disflow/depth/curved_window.h"
 #include "disflow/depth/depth_reader.h"
 #include "disflow/depth/inverse_depth_block.h"
 #include "disflow/depth/pixel_mask.h"
@@ -174,22 +175,24 @@ class SurfaceSampler {
       ++counters.blocks_sparse;
       return;
     }
-    const InverseDepthPlane plane = BestPlane(config, column, row, own);
+    float bend = 0.0F;
+    const InverseDepthPlane plane = BestPlane(config, column, row, own, bend);
     if (!plane.valid) {
       ++counters.blocks_flying;
       return;
     }
     SurfaceSample sample;
     LocalSurface& surface = surfaces_[Index(column, row)];
-    if (!MakeSample(camera, config, column, row, own, plane, sample, surface)) {
+    if (!MakeSample(camera, config, column, row, own, plane, bend, sample, surface)) {
       ++counters.blocks_grazing;
       return;
     }
     if (!samples.push_back(sample)) ++counters.samples_dropped;
   }
 
+  /// @param bend Of the surface from the plane at the block [1/m].
   [[nodiscard]] InverseDepthPlane BestPlane(const SamplerConfig& config, int column, int row,
-                                            const PixelMoments& own) const noexcept {
+                                            const PixelMoments& own, float& bend) const noexcept {
     const float noise_variance = noise_std_ * noise_std_;
     const float limit = config.max_residual_sigmas * config.max_residual_sigmas * noise_variance;
     const float own_u = own.u / own.n;
@@ -197,56 +200,53 @@ class SurfaceSampler {
     const float own_w = own.w_reference + own.w / own.n;
     // Curved surface bends away from any plane, which a good sensor sees: it must not be taken for
     // clutter.
-    const float bend = config.max_bend_ratio * own_w;
+    const float allowed_bend = config.max_bend_ratio * own_w;
     InverseDepthPlane best;
     for (std::size_t i = 0; i < kWindows.size(); ++i) {
-      const InverseDepthPlane plane = InverseDepthPlane::Fit(MergeWindow(column, row, kWindows[i]));
-      if (!plane.valid || plane.residual_variance > limit + bend * bend) continue;
+      InverseDepthPlane plane = InverseDepthPlane::Fit(MergeWindow(column, row, kWindows[i]));
+      if (!plane.valid) continue;
+      if (i == 0) {
+        const CurvedWindow curved = FitCurve(column, row, plane);
+        if (curved.valid &&
+            curved.residual_variance <= limit + kRipple * allowed_bend * allowed_bend) {
+          bend = curved.bend;
+          plane.residual_variance = curved.residual_variance;
+          return plane;  // one smooth piece of surface: no need to look at parts
+        }
+      }
+      if (plane.residual_variance > limit + allowed_bend * allowed_bend) continue;
       const float deviation = own_w - plane.At(own_u, own_v);
       const float expected = noise_variance * (1.0F / own.n + plane.Leverage(own_u, own_v));
-      if (deviation * deviation > 9.0F * expected + bend * bend) continue;
-      if (!best.valid || plane.residual_variance < best.residual_variance) best = plane;
-      if (i == 0 && plane.residual_variance <= limit)
-        break;  // the whole window fits: no need to look at parts
+      if (deviation * deviation > 9.0F * expected + allowed_bend * allowed_bend) continue;
+      if (!best.valid || plane.residual_variance < best.residual_variance) {
+        best = plane;
+        bend = CurvedWindow::Shrunk(deviation, expected);
+      }
+      if (i == 0 && plane.residual_variance <= limit) break;
     }
     return best;
   }
 
-  /// How far curved surface lies from the plane that was fitted to a block and its eight
-  /// neighbours, at the block's centre, as far as the noise lets one tell (shrunk as by James and
-  /// Stein). A quadratic through the nine blocks' means.
-  [[nodiscard]] float Bend(int column, int row, float plane_pixels) const noexcept {
-    if (column < 1 || row < 1 || column + 1 >= columns_ || row + 1 >= rows_) return 0.0F;
-    const auto full = 0.9F * static_cast<float>(block_px_ * block_px_);
-    const float reference = block(column, row).w_reference;
-    float sum = 0.0F;
-    float inverse_count = 0.0F;
-    float pixels = 0.0F;
-    for (int r = -1; r <= 1; ++r) {
-      for (int c = -1; c <= 1; ++c) {
-        const PixelMoments& moments = block(column + c, row + r);
-        if (moments.n < full) return 0.0F;
-        const float weight = static_cast<float>((2 - 3 * c * c) * 1 + (2 - 3 * r * r)) / 9.0F;
-        sum += weight * (moments.w_reference - reference + moments.w / moments.n);
-        inverse_count += weight * weight / moments.n;
-        pixels += moments.n;
-      }
-    }
-    if (pixels > plane_pixels) return 0.0F;
-    const float variance = noise_std_ * noise_std_ * inverse_count;
-    return sum * std::fmax(0.0F, 1.0F - variance / (sum * sum + 1e-20F));
+  [[nodiscard]] CurvedWindow FitCurve(int column, int row,
+                                      const InverseDepthPlane& plane) const noexcept {
+    if (column < 1 || row < 1 || column + 1 >= columns_ || row + 1 >= rows_) return {};
+    CurvedWindow::Blocks blocks;
+    for (int i = 0; i < 9; ++i)
+      blocks[static_cast<std::size_t>(i)] = &block(column + i % 3 - 1, row + i / 3 - 1);
+    return CurvedWindow::Fit(blocks, plane, static_cast<float>(block_px_ * block_px_),
+                             noise_std_ * noise_std_);
   }
 
   [[nodiscard]] bool MakeSample(const PinholeCamera& camera, const SamplerConfig& config,
                                 int column, int row, const PixelMoments& own,
-                                const InverseDepthPlane& plane, SurfaceSample& sample,
+                                const InverseDepthPlane& plane, float bend, SurfaceSample& sample,
                                 LocalSurface& surface) const noexcept {
     const float half = 0.5F * static_cast<float>(block_px_ - 1);
     const float du = own.u / own.n;
     const float dv = own.v / own.n;
     const float u = static_cast<float>(origin_u_ + column * block_px_) + half + du;
     const float v = static_cast<float>(origin_v_ + row * block_px_) + half + dv;
-    const float w = plane.At(du, dv) + Bend(column, row, plane.n);
+    const float w = plane.At(du, dv) + bend;
     if (!(w > 0.0F)) return false;
     // w = g . ray on the plane, so g is normal to it and 1 / |g| is its distance from the camera.
     const Vec3 ray = camera.Ray(u, v);
@@ -279,6 +279,8 @@ class SurfaceSampler {
   }
 
   static constexpr int kNoiseBlocks = 512;
+  static constexpr float kRipple =
+      0.05F;  ///< Third order allowed, as share of the second, squared.
   std::array<PixelMoments, static_cast<std::size_t>(Limits::kMaxBlocks)> blocks_;
   std::array<LocalSurface, static_cast<std::size_t>(Limits::kMaxBlocks)> surfaces_;
   std::array<float, static_cast<std::size_t>(kNoiseBlocks)> residuals_;
