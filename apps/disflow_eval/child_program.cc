@@ -14,6 +14,7 @@ namespace disflow::apps {
 
 int RunProgram(std::vector<std::string> words, const std::filesystem::path& folder) {
   std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   const pid_t child = ::fork();

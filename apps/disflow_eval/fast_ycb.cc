@@ -76,38 +76,45 @@ FastYcbResult Run(const FastYcbOptions& options, const std::string& object, cons
   return Summarise(report, object, mask);
 }
 
+using Say = std::function<void(const std::string&)>;
+
+/// Both mask sets of one object, as far as they are there.
+void RunObject(const FastYcbOptions& options, const std::string& object, const Say& say,
+               std::vector<FastYcbResult>& results) {
+  const fs::path folder = options.data / object;
+  if (const fs::path poses = folder / "gt" / "poses.txt"; !fs::exists(poses)) {
+    say(Format("%s: skipped, %s is not there", object.c_str(), poses.c_str()));
+    return;
+  }
+  const fs::path model = FindModel(options, object);
+  if (model.empty()) {
+    say(Format("%s: skipped, no model: give a folder with %s.obj by --models", object.c_str(),
+               object.c_str()));
+    return;
+  }
+  for (const char* mask : kFastYcbMasks) {
+    std::string fault = "not there";
+    if (fs::is_directory(folder / "masks" / mask)) {
+      try {
+        results.push_back(Run(options, object, mask, model));
+        continue;
+      } catch (const InputError& error) {
+        fault = error.what();
+      }
+    }
+    say(Format("%s, masks %s: skipped, %s", object.c_str(), mask, fault.c_str()));
+  }
+}
+
 }  // namespace
 
-std::vector<FastYcbResult> EvaluateFastYcb(const FastYcbOptions& options,
-                                           const std::function<void(const std::string&)>& say) {
+std::vector<FastYcbResult> EvaluateFastYcb(const FastYcbOptions& options, const Say& say) {
   if (!fs::is_directory(options.data)) throw InputError(options.data, "is no folder");
   std::error_code error;
   fs::create_directories(options.out, error);
   if (error) throw OutputError(options.out, "cannot be created: " + error.message());
   std::vector<FastYcbResult> results;
-  for (const std::string object : kFastYcbObjects) {
-    const fs::path folder = options.data / object;
-    if (!fs::exists(folder / "gt" / "poses.txt")) {
-      say(object + ": skipped, " + (folder / "gt" / "poses.txt").string() + " is not there");
-      continue;
-    }
-    const fs::path model = FindModel(options, object);
-    if (model.empty()) {
-      say(object + ": skipped, no model: give a folder with " + object + ".obj by --models");
-      continue;
-    }
-    for (const std::string mask : kFastYcbMasks) {
-      if (!fs::is_directory(folder / "masks" / mask)) {
-        say(object + ", masks " + mask + ": skipped, not there");
-        continue;
-      }
-      try {
-        results.push_back(Run(options, object, mask, model));
-      } catch (const InputError& failure) {
-        say(object + ", masks " + mask + ": skipped, " + failure.what());
-      }
-    }
-  }
+  for (const char* object : kFastYcbObjects) RunObject(options, object, say, results);
   if (results.empty()) throw InputError(options.data, "holds no sequence that could be judged");
   return results;
 }

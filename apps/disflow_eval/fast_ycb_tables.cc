@@ -57,7 +57,8 @@ std::string Show(const char* format, double value) {
 /// A Markdown table, line by line.
 class Table {
  public:
-  Table(std::string title, std::vector<std::string> head) : text_("\n**" + title + "**\n\n") {
+  Table(const std::string& title, const std::vector<std::string>& head)
+      : text_("\n**" + title + "**\n\n") {
     Add(head);
     text_ += "|---|";
     for (std::size_t i = 1; i < head.size(); ++i) text_ += "---:|";
