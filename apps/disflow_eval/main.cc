@@ -94,13 +94,7 @@ int RunFastYcb(disflow::apps::FastYcbOptions options) {
   return kDone;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  Options options;
-  CLI::App app(kDescription, "disflow_eval");
-  app.footer(kFooter);
-  app.set_version_flag("--version", "disflow_eval " DISFLOW_VERSION " (" DISFLOW_BUILD ")");
+void AddSequence(CLI::App& app, Options& options) {
   app.add_option("SEQUENCE", options.input.sequence,
                  "Sequence with ground truth: a folder, or the sim: address that was tracked");
   app.add_option("--csv", options.input.csv,
@@ -109,37 +103,54 @@ int main(int argc, char** argv) {
   app.add_option("--model", options.input.model,
                  "Model of the object, .obj or .xyz, metres [the sequence's own]")
       ->type_name("FILE");
-  app.add_option("--json", options.json, "Write all metrics as JSON")->type_name("FILE");
-  app.add_option("--frames", options.frames, "Write the errors of every frame as CSV")
-      ->type_name("FILE");
   app.add_option(
          "--mesh", options.input.mesh,
          "Surface to judge, PLY in the tracker's object frame, as disflow_track --mesh writes it")
+      ->type_name("FILE");
+  app.add_option("--json", options.json, "Write all metrics as JSON")->type_name("FILE");
+  app.add_option("--frames", options.frames, "Write the errors of every frame as CSV")
       ->type_name("FILE");
   app.add_option("--plots", options.plots, "Draw plots as PNG into this folder (needs gnuplot)")
       ->type_name("DIR");
   app.add_option("--summary", options.summary, "Write a one-page summary in Markdown")
       ->type_name("FILE");
-  auto& fast_ycb = options.fast_ycb;
-  app.add_option("--fast-ycb", fast_ycb.data,
-                 "Track and judge all sequences of the Fast-YCB data set in this folder, and print "
-                 "the paper's tables with our figures beside the published ones")
-      ->type_name("DIR");
-  app.add_option("--models", fast_ycb.models,
-                 "With --fast-ycb: folder of the objects' models, e.g. 003_cracker_box.obj, in the "
-                 "pose convention of gt/poses.txt, metres [DIR/OBJECT/gt/model.obj]")
-      ->type_name("DIR");
-  app.add_option("--out", fast_ycb.out,
-                 "With --fast-ycb: folder for trajectories, meshes and tables [fast-ycb-results]")
-      ->type_name("DIR");
-  app.add_option("--config", fast_ycb.config, "With --fast-ycb: settings for disflow_track, TOML")
-      ->type_name("FILE");
+}
+
+void AddFastYcb(CLI::App& app, disflow::apps::FastYcbOptions& options) {
+  auto* const data = app.add_option("--fast-ycb", options.data,
+                                    "In place of all above: track and judge the Fast-YCB data set "
+                                    "in this folder; the paper's tables with our figures beside "
+                                    "the published ones");
+  data->type_name("DIR");
+  app.add_option("--models", options.models,
+                 "Folder of its objects' models, e.g. 003_cracker_box.obj, in the pose convention "
+                 "of gt/poses.txt, metres [DIR/OBJECT/gt/model.obj]")
+      ->type_name("DIR")
+      ->needs(data);
+  app.add_option("--out", options.out,
+                 "Folder for trajectories, meshes and tables [fast-ycb-results]")
+      ->type_name("DIR")
+      ->needs(data);
+  app.add_option("--config", options.config, "Settings for disflow_track, TOML")
+      ->type_name("FILE")
+      ->needs(data);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  CLI::App app(kDescription, "disflow_eval");
+  app.footer(kFooter);
+  app.set_version_flag("--version", "disflow_eval " DISFLOW_VERSION " (" DISFLOW_BUILD ")");
+  AddSequence(app, options);
+  AddFastYcb(app, options.fast_ycb);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kDone : kWrongUsage;
   }
-  const bool whole_set = !fast_ycb.data.empty();
+  const bool whole_set = !options.fast_ycb.data.empty();
   if (whole_set == !options.input.sequence.empty() || (!whole_set && options.input.csv.empty())) {
     std::fprintf(
         stderr,
@@ -147,7 +158,7 @@ int main(int argc, char** argv) {
     return kWrongUsage;
   }
   try {
-    if (whole_set) return RunFastYcb(fast_ycb);
+    if (whole_set) return RunFastYcb(options.fast_ycb);
     return WriteAll(disflow::apps::Evaluate(options.input), options);
   } catch (const OutputError& error) {
     std::fprintf(stderr, "disflow_eval: %s\n", error.what());
