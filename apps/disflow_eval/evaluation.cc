@@ -2,6 +2,7 @@
 #include "evaluation.h"
 
 #include "mesh_metrics.h"
+#include "nearest_surface.h"
 #include "ply_file.h"
 #include "sequence.h"
 #include "surface.h"
@@ -10,8 +11,10 @@
 namespace disflow::apps {
 namespace {
 
-/// Points for ADD from a mesh; ADD changes by less than a thousandth with more.
-constexpr std::size_t kAddPoints = 2000;
+/// Points for ADD from a mesh; ADD changes by a few thousandths with more.
+constexpr std::size_t kAddPoints = 500;
+/// Where the search for the nearest point of a mesh begins.
+constexpr std::size_t kAddSurfacePoints = 10000;
 
 }  // namespace
 
@@ -29,7 +32,9 @@ Report Evaluate(const EvaluationInput& input) {
   report.model_points = model_points.size();
   report.has_velocities = !truth.twists.empty();
   report.run = Align(truth, report.estimates);
-  report.poses = EvaluatePoses(report.run, model_points);
+  const NearestSurface nearest(model, SampleSurface(model, kAddSurfacePoints));
+  report.poses = EvaluatePoses(report.run, model_points,
+                               [&nearest](const Vec3d& x) { return nearest.Find(x).distance; });
   report.pose_consistency = EvaluatePoseConsistency(report.run);
   if (report.has_velocities) report.twist_consistency = EvaluateTwistConsistency(report.run);
   report.stages = EvaluateTiming(report.estimates);

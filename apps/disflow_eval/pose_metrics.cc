@@ -18,14 +18,14 @@ double MeanDistance(const Offset& offset, const std::vector<Vec3d>& points) {
 }
 
 double MeanNearestDistance(const Offset& offset, const std::vector<Vec3d>& points,
-                           const PointIndex& index) {
+                           const ModelDistance& model_distance) {
   double sum = 0.0;
-  for (const Vec3d& point : points) sum += index.NearestDistance(offset * point);
+  for (const Vec3d& point : points) sum += model_distance(offset * point);
   return sum / static_cast<double>(points.size());
 }
 
 FrameError EvaluateFrame(const AlignedFrame& frame, const std::vector<Vec3d>& points,
-                         const PointIndex& index) {
+                         const ModelDistance& model_distance) {
   // Distances do not depend on the frame, so they are measured in the object's.
   const Offset true_to_estimated = frame.T_ct.Inverse() * frame.T_ct_estimated;
   // ADD-S asks for the nearest estimated point of every true one: the estimate stays, truth moves.
@@ -34,7 +34,7 @@ FrameError EvaluateFrame(const AlignedFrame& frame, const std::vector<Vec3d>& po
   error.frame = frame.row->frame;
   error.timestamp_s = frame.row->timestamp_s;
   error.add_m = MeanDistance(true_to_estimated, points);
-  error.add_s_m = MeanNearestDistance(estimated_to_true, points, index);
+  error.add_s_m = MeanNearestDistance(estimated_to_true, points, model_distance);
   error.translation_m = (frame.T_ct_estimated.translation() - frame.T_ct.translation()).norm();
   error.rotation_rad = LogSo3(true_to_estimated.rotation()).norm();
   error.linear_mps = (frame.twist_estimated.linear_mps - frame.twist.linear_mps).norm();
@@ -64,11 +64,15 @@ std::size_t LongestFalseTracking(const AlignedTrajectory& run,
 
 }  // namespace
 
-PoseMetrics EvaluatePoses(const AlignedTrajectory& run, const std::vector<Vec3d>& model_points) {
+PoseMetrics EvaluatePoses(const AlignedTrajectory& run, const std::vector<Vec3d>& model_points,
+                          ModelDistance model_distance) {
   const PointIndex index(model_points);
+  if (!model_distance) {
+    model_distance = [&index](const Vec3d& point) { return index.NearestDistance(point); };
+  }
   PoseMetrics metrics;
   for (const AlignedFrame& frame : run.frames) {
-    metrics.frames.push_back(EvaluateFrame(frame, model_points, index));
+    metrics.frames.push_back(EvaluateFrame(frame, model_points, model_distance));
   }
   const std::vector<double> add = Column(metrics.frames, &FrameError::add_m);
   const std::vector<double> add_s = Column(metrics.frames, &FrameError::add_s_m);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "statistics.h"
@@ -41,8 +42,14 @@ struct PoseMetrics {
   std::size_t longest_false_tracking = 0;
 };
 
+/// Distance of a point from the model, true object frame.
+using ModelDistance = std::function<double(const Vec3d&)>;
+
 /// @param model_points Points of the model, true object frame, not empty.
+/// @param model_distance For ADD-S: asks for the surface between the points too, lest ADD-S measure
+/// their spacing. Empty = the points are all there is.
 [[nodiscard]] PoseMetrics EvaluatePoses(const AlignedTrajectory& run,
-                                        const std::vector<Vec3d>& model_points);
+                                        const std::vector<Vec3d>& model_points,
+                                        ModelDistance model_distance = {});
 
 }  // namespace disflow::apps

@@ -7,7 +7,7 @@ import subprocess
 
 import runs
 
-STYLE = """set terminal pngcairo size 1000,{height} font 'sans,11' linewidth 1.2
+STYLE = """set terminal pngcairo size 900,{height} font 'sans,10'
 set output '{file}'
 set datafile separator ','
 set datafile missing 'nan'
@@ -15,7 +15,7 @@ set grid lc rgb '#c8c8c8' lw 0.6
 set border 3 lc rgb '#606060'
 set tics nomirror
 set style data lines
-set key below center horizontal noautotitle
+set key below center horizontal samplen 2 noautotitle
 set lmargin 9
 set linetype 1 lc rgb '#1f6fb4'
 set linetype 2 lc rgb '#d1601f'
@@ -37,43 +37,39 @@ def _draw(path, height, layout, title, panels):
         raise RuntimeError(f"gnuplot failed on {path}: {done.stderr.strip()}")
 
 
-def _curves(programs, rows_and_seeds, column, scale, labels):
-    """One curve per run of a column of its error table."""
+def _curves(programs, row, seeds, column, scale, style="with lines"):
+    """One curve per run of a row: a column of its error table."""
     curves = []
-    for (row, seed), label in zip(rows_and_seeds, labels):
+    for seed in seeds:
         file = programs.file(runs.Job(row.name, row.scene, seed), ".frames.csv").resolve()
-        title = f"title '{label}'" if label else ""
-        curves.append(f"'{file}' every ::1 using 2:(${column}*{scale}) {title}")
+        curves.append(f"'{file}' every ::1 using 2:(${column}*{scale}) {style} lt {seed} title '{seed}'")
     return ", ".join(curves)
 
 
 def _errors(programs, path, rows, seeds):
     panels = []
     for row in rows:
-        chosen = [(row, seed) for seed in seeds]
-        labels = [f"seed {seed}" for seed in seeds]
         for column, scale, name in ((3, 1000, "e_t [mm]"), (4, 1, "e_a [deg]")):
             panels.append(
                 f"set title '{row.name}' noenhanced; set xlabel 'time [s]'; set ylabel '{name}' noenhanced; set yrange [0:*]\n"
-                f"plot {_curves(programs, chosen, column, scale, labels)}"
+                f"plot {_curves(programs, row, seeds, column, scale)}"
             )
-    _draw(path, 360 * len(rows), f"{len(rows)},2", "Pose error over time", panels)
+    _draw(path, 320 * len(rows), f"{len(rows)},2", "Pose error over time, one colour per seed", panels)
 
 
 def _nees(programs, path, rows, seeds):
     panels = []
     low, high = NEES_BOUNDS
+    points = "with points pt 7 ps 0.25"  # five noisy curves would hide each other
     for row in rows:
-        chosen = [(row, seed) for seed in seeds]
-        labels = [f"seed {seed}" for seed in seeds]
         for column, name in ((9, "NEES of the pose"), (10, "NEES of the twist")):
             panels.append(
                 f"set title '{row.name}' noenhanced; set xlabel 'time [s]'; set ylabel '{name}'\n"
                 "set logscale y; set yrange [0.05:200]\n"
-                f"plot {_curves(programs, chosen, column, 1, labels)}, "
+                f"plot {_curves(programs, row, seeds, column, 1, points)}, "
                 f"{low} lc rgb 'black' dt 2, {high} lc rgb 'black' dt 2"
             )
-    _draw(path, 360 * len(rows), f"{len(rows)},2", "Squared error over covariance; dashed: 95 % of a truthful one", panels)
+    _draw(path, 320 * len(rows), f"{len(rows)},2", "Squared error over covariance, one colour per seed; dashed: 95 % of a truthful one", panels)
 
 
 def _add_curves(programs, path, rows, seeds):

@@ -5,7 +5,9 @@
 
 #include <numbers>
 
+#include "nearest_surface.h"
 #include "run_builder.h"
+#include "sphere_mesh.h"
 
 namespace disflow::apps {
 namespace {
@@ -82,6 +84,21 @@ TEST(PoseMetricsTest, AddS_AsksForTheNearestEstimatedPoint) {
   // Estimated points lie at 0.9, 1.9 and 2.1; the other direction would give (0.1 + 0.7 + 0.9) / 3.
   EXPECT_NEAR(m.frames[1].add_s_m, (0.9 + 0.1 + 0.3) / 3.0, 1e-12);
   EXPECT_NEAR(m.frames[1].add_m, 0.9, 1e-12);
+}
+
+TEST(PoseMetricsTest, TurnOfARoundObject_CostsNoAddSWhereTheSurfaceIsAsked) {
+  // A sphere turned about its centre is the same sphere; its few points are others.
+  MadeUpRun made = MakeRun(2);
+  Disturb(made, Vec3d::Zero(), Vec3d(0, 0, 0.1));
+  const Surface sphere = MakeSphere(0.05, Vec3d::Zero());
+  const std::vector<Vec3d> points = Positions(SampleSurface(sphere, 500));
+  const NearestSurface nearest(sphere, SampleSurface(sphere, 5000));
+  const AlignedTrajectory run = Align(made.truth, made.estimates);
+  const PoseMetrics by_surface =
+      EvaluatePoses(run, points, [&](const Vec3d& x) { return nearest.Find(x).distance; });
+  EXPECT_LT(by_surface.frames[1].add_s_m, 2e-5);
+  EXPECT_GT(EvaluatePoses(run, points).frames[1].add_s_m, 5e-4) << "their spacing";
+  EXPECT_GT(by_surface.frames[1].add_m, 2e-3);
 }
 
 TEST(PoseMetricsTest, MissingFrames_LowerTheAucButNotTheMean) {
