@@ -48,7 +48,9 @@ TEST_F(FastYcb, SequencesThatAreThere_StandBesideThePublishedFigures) {
     EXPECT_PRED_FORMAT2(IsSubstring, text, outcome.out);
   }
   const std::string auc = Row(outcome.out, "ADD-AUC %");
-  EXPECT_PRED_FORMAT2(IsSubstring, "| 54.92 | 78.5 | 68.94 | 63.02 | 92.44 | 9", auc);
+  const std::string published = "| ADD-AUC % | 54.92 | 78.5 | 68.94 | 63.02 | 92.44 | ";
+  ASSERT_EQ(auc.substr(0, published.size()), published);
+  EXPECT_GT(std::stod(auc.substr(published.size())), 90.0) << auc;
   // Both mask sets of both objects, and nothing made up for the others.
   for (const char* row : {"003_cracker_box, gt", "003_cracker_box, mrcnn_ycbv_bop_pbr",
                           "006_mustard_bottle, gt", "006_mustard_bottle, mrcnn_ycbv_bop_pbr"}) {
