@@ -51,6 +51,11 @@ class Tracker {
   [[nodiscard]] const ConfigIssue& config_issue() const noexcept { return config_issue_; }
   /// The reconstructed surface; see also surface_extractor.h.
   [[nodiscard]] const Field& field() const noexcept { return field_; }
+  [[nodiscard]] const Config& config() const noexcept { return config_; }
+  /// Surface seen in the frame processed last, camera frame; see also distance_flow.h.
+  [[nodiscard]] const typename SurfaceSampler<Limits>::Samples& last_samples() const noexcept {
+    return samples_;
+  }
   /// Sums of Estimate::rejected since construction, saturating.
   [[nodiscard]] const Counters& totals() const noexcept { return totals_; }
 
