@@ -7,6 +7,7 @@
 
 #include "disflow/hal/mavlink/telemetry.h"
 #include "disflow/host/open_sensor.h"
+#include "disflow/surface_extractor.h"
 #include "exit_status.h"
 #include "settings.h"
 
@@ -72,8 +73,20 @@ void AddOutput(CLI::App& app, Options& options) {
   app.add_option("--csv", options.csv, "Write the trajectory")->type_name("FILE");
   app.add_option("--mesh", options.mesh,
                  "Write the surface at the end: binary PLY, coloured by uncertainty (dark = "
-                 "certain), std_m in metres")
+                 "certain), std_m in metres; OBJ if the name ends in .obj")
       ->type_name("FILE");
+  app.add_option("--mesh-resolution", options.mesh_resolution_m,
+                 "Edge of the mesh's sampling cubes in metres; at most 16 fit into a cell "
+                 "(field.cell_size_m) [a tenth of it]")
+      ->check(CLI::Validator(CLI::PositiveNumber).description(""))
+      ->type_name("METRES");
+  app.add_option("--mesh-picture", options.mesh_picture,
+                 "Draw the surface at the end: PNG, from the first camera, right, behind and above")
+      ->type_name("FILE");
+  app.add_option("--flow", options.flow,
+                 "Write the distance flow: a PLY per frame with the observed points, their "
+                 "distance to the model, its gradient and their velocity")
+      ->type_name("DIR");
   app.add_option("--record", options.record, "Write the frames as a sequence for replay:DIR")
       ->type_name("DIR");
   app.add_flag("--headless", options.headless, "No live status line");
@@ -89,6 +102,15 @@ void ReadSettings(const SettingSources& settings, Config& config) {
   if (!settings.file.empty()) LoadSettings(settings.file, config);
   for (const std::string& assignment : settings.assignments) ApplySetting(assignment, config);
   CheckSettings(config);
+}
+
+void CheckResolution(const Options& options) {
+  const double cell_m = static_cast<double>(options.config.field.cell_size_m);
+  const double finest_m = cell_m / kMaxStepsPerCell;
+  if (options.mesh_resolution_m == 0.0 || options.mesh_resolution_m >= 0.9999 * finest_m) return;
+  throw Failure(kWrongUsage, "--mesh-resolution is too fine: with field.cell_size_m = " +
+                                 std::to_string(cell_m) + " it is at least " +
+                                 std::to_string(finest_m));
 }
 
 }  // namespace
@@ -111,6 +133,7 @@ Options ParseCommandLine(int argc, char** argv, bool& exit_now) {
     throw Failure(kWrongUsage, std::string(error.what()) + "; see disflow_track --help");
   }
   ReadSettings(settings, options.config);
+  CheckResolution(options);
   if (options.sensor.empty() && !options.print_config && !options.print_settings_table) {
     throw Failure(kWrongUsage, "--sensor is required; see disflow_track --help");
   }

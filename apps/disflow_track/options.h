@@ -19,6 +19,9 @@ struct Options {
   std::vector<std::string> links;
   std::string csv;
   std::string mesh;
+  std::string mesh_picture;
+  double mesh_resolution_m = 0.0;  ///< 0: by the model's own detail.
+  std::string flow;                ///< Folder.
   std::string record;
   Config config;  ///< Defaults, then the file, then --set.
   ProfileName profile = ProfileName::kEdge;

@@ -10,9 +10,9 @@ namespace disflow::apps {
 Outputs::Outputs(const Options& options, Console& console)
     : console_(console),
       telemetry_(options.links, options.object_index, console),
-      mesh_path_(options.mesh),
+      mesh_(options.mesh, options.mesh_picture),
       record_path_(options.record) {
-  if (!options.mesh.empty()) mesh_.emplace(options.mesh);
+  if (!options.flow.empty()) flow_.emplace(options.flow);
   if (!options.record.empty()) StartRecording(options.record);
   // Last, since it empties a file that may exist.
   if (!options.csv.empty()) csv_.emplace(options.csv, options.timing);
@@ -44,23 +44,28 @@ hal::Fault Outputs::Record(const DepthFrame& frame) {
   return fault.ok() && frame.mask.given() ? recording_->AddMask("gt", frame.mask) : fault;
 }
 
-void Outputs::WriteMesh(const SurfaceMesh& mesh) {
-  if (mesh.triangle_count() == 0) {
-    Fail(mesh_path_ + ": not written, no surface was reconstructed");
-    return;
-  }
+void Outputs::WriteFlow(const FrameResult& result) {
   try {
-    mesh_->Commit(mesh.FormatPly());
+    flow_->Write(result.frame, result.estimate);
+  } catch (const Failure& failure) {
+    Fail(std::string(failure.what()) + "; no more flow is written");
+    flow_.reset();
+  }
+}
+
+void Outputs::WriteMesh(const SurfaceMesh& mesh) {
+  try {
+    for (std::string& line : mesh_.Write(mesh)) written_.push_back(std::move(line));
   } catch (const Failure& failure) {
     Fail(failure.what());
-    return;
   }
-  written_.push_back(mesh_path_ + ": " + std::to_string(mesh.vertices().size()) + " vertices, " +
-                     std::to_string(mesh.triangle_count()) + " triangles");
 }
 
 bool Outputs::Finish() {
   if (csv_) written_.push_back(csv_->file().path() + ": trajectory");
+  if (flow_) {
+    written_.push_back(flow_->folder() + ": flow of " + std::to_string(flow_->files()) + " frames");
+  }
   if (recording_) {
     const hal::Fault fault = recording_->Finish();
     if (!fault.ok()) Fail(fault.message);

@@ -7,10 +7,10 @@
 
 #include "console.h"
 #include "disflow/host/sequence_writer.h"
+#include "flow_output.h"
 #include "frame_result.h"
+#include "mesh_output.h"
 #include "options.h"
-#include "output_file.h"
-#include "surface_mesh.h"
 #include "telemetry_output.h"
 #include "trajectory_csv.h"
 
@@ -29,7 +29,11 @@ class Outputs {
                std::int64_t now_ns);
   void KeepAlive(std::int64_t now_ns) noexcept { telemetry_.KeepAlive(now_ns); }
 
-  [[nodiscard]] bool wants_mesh() const noexcept { return mesh_.has_value(); }
+  /// Where the flow of a frame goes before WriteFlow(); null if it is not wanted.
+  [[nodiscard]] FlowCloud* flow() noexcept { return flow_ ? &flow_->cloud() : nullptr; }
+  void WriteFlow(const FrameResult& result);
+
+  [[nodiscard]] bool wants_mesh() const noexcept { return mesh_.wanted(); }
   void WriteMesh(const SurfaceMesh& mesh);
 
   /// Closes all. @return false if something that was asked for is not complete.
@@ -44,10 +48,10 @@ class Outputs {
 
   Console& console_;
   TelemetryOutput telemetry_;
-  std::optional<AtomicFile> mesh_;
+  MeshOutput mesh_;
+  std::optional<FlowOutput> flow_;                 ///< Empty again after a failure.
   std::optional<host::SequenceWriter> recording_;  ///< Empty again after a failure.
   std::optional<TrajectoryCsv> csv_;
-  std::string mesh_path_;
   std::string record_path_;
   std::vector<std::string> written_;
   bool complete_ = true;

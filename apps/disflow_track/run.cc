@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "console.h"
+#include "disflow/distance_flow.h"
 #include "disflow/host/open_sensor.h"
 #include "disflow/posix/monotonic_clock.h"
 #include "disflow/tracker.h"
@@ -20,21 +21,32 @@ using posix::MonotonicClock;
 
 std::int64_t ReadClock(void* context) { return static_cast<MonotonicClock*>(context)->NowNs(); }
 
-/// Finer than the model's own detail is waste, coarser loses it.
-SurfaceOptions MeshOptions(const Config& config) {
-  SurfaceOptions options;
-  options.resolution_m = config.field.cell_size_m / 8.0F;
-  options.support_radius_m = 1.6F * config.field.merge_radius_m;
-  return options;
+SurfaceOptions MeshOptions(const Options& options) {
+  const FieldConfig& field = options.config.field;
+  SurfaceOptions surface;
+  // Finer than the model's own detail is waste, coarser loses it.
+  surface.resolution_m = options.mesh_resolution_m > 0.0
+                             ? static_cast<float>(options.mesh_resolution_m)
+                             : field.cell_size_m / 10.0F;
+  surface.support_radius_m = 1.6F * field.merge_radius_m;
+  return surface;
 }
 
 template <class Limits>
-void WriteMesh(const DistanceField<Limits>& field, const Config& config, Outputs& outputs) {
+void WriteMesh(const DistanceField<Limits>& field, const Options& options, Outputs& outputs) {
   static SurfaceWorkspace<Limits> workspace;  // too large for a stack
   SurfaceMesh mesh;
   // An empty model gives an empty mesh, which is said there.
-  (void)ExtractSurface(field, MeshOptions(config), workspace, mesh);
+  (void)ExtractSurface(field, MeshOptions(options), workspace, mesh);
   outputs.WriteMesh(mesh);
+}
+
+template <class Limits>
+void WriteFlow(const Tracker<Limits>& tracker, const FrameResult& result, Outputs& outputs) {
+  FlowCloud* const cloud = outputs.flow();
+  if (cloud == nullptr) return;
+  cloud->Clear();
+  if (StreamFlow(tracker, result.estimate, *cloud) > 0) outputs.WriteFlow(result);
 }
 
 template <class Limits>
@@ -57,6 +69,7 @@ void Track(const Options& options, Tracker<Limits>& tracker, hal::DepthSensor& s
       (void)tracker.Process(frame, result.estimate, stage_clock);  // the estimate carries it
       result.total_ns = clock.NowNs() - begin_ns;
       result.totals = tracker.totals();
+      WriteFlow(tracker, result, outputs);
     } else {
       // The last pose stands; the row says that it is not of this frame.
       result.estimate.status = source.fault_status();
@@ -121,7 +134,7 @@ ExitStatus RunWith(const Options& options) {
   }
   const double seconds = static_cast<double>(clock.NowNs() - begin_ns) * 1e-9;
   if (status == kDone) status = JudgeInput(source, report, sensor.get()->info().live, console);
-  if (outputs.wants_mesh()) WriteMesh(tracker.field(), options.config, outputs);
+  if (outputs.wants_mesh()) WriteMesh(tracker.field(), options, outputs);
   const bool complete = outputs.Finish();
   console.Say(report.Format(seconds));
   for (const std::string& line : outputs.written()) console.Say(line);

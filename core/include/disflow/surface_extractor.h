@@ -56,11 +56,13 @@ struct SurfaceCounts {
   int triangles = 0;  ///< Triangles given to the sink.
 };
 
+/// An octree cell is cut into at most this many sampling cubes along each edge.
+inline constexpr int kMaxStepsPerCell = 16;
+
 /// Scratch memory of ExtractSurface(): the distances on one octree cell's grid, and vertices that
 /// several triangles share.
 template <class Limits>
 struct SurfaceWorkspace {
-  static constexpr int kMaxStepsPerCell = 16;
   static constexpr int kCornersPerEdge = kMaxStepsPerCell + 1;
   static constexpr int kCachedVertices = 512;
 

@@ -35,7 +35,7 @@ class SurfaceExtractor {
   [[nodiscard]] static bool IsValid(const DistanceField<Limits>& field,
                                     const SurfaceOptions& options) noexcept {
     // Written so that NaN is refused too.
-    return options.resolution_m * static_cast<float>(Workspace::kMaxStepsPerCell) >=
+    return options.resolution_m * static_cast<float>(kMaxStepsPerCell) >=
                field.config().cell_size_m * (1.0F - kRounding) &&
            options.resolution_m < kLargest_m && options.support_radius_m > 0.0F &&
            options.support_radius_m < kLargest_m;
@@ -72,7 +72,7 @@ class SurfaceExtractor {
                                         const SurfaceOptions& options) noexcept {
     const float steps =
         std::ceil(field.config().cell_size_m / options.resolution_m * (1.0F - kRounding));
-    return std::clamp(static_cast<int>(steps), 1, Workspace::kMaxStepsPerCell);
+    return std::clamp(static_cast<int>(steps), 1, kMaxStepsPerCell);
   }
 
   [[nodiscard]] static bool Same(const OctreeCell& a, const OctreeCell& b) noexcept {

@@ -5,10 +5,13 @@
 
 #include <algorithm>
 #include <chrono>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "child_process.h"
 #include "estimate_csv.h"
+#include "model_file.h"
 #include "ply_file.h"
 #include "scratch_folder.h"
 
@@ -129,6 +132,66 @@ TEST_F(OutputTest, Mesh_HasUnitNormalsAndAnUncertaintyAtEveryVertex) {
   const auto mesh = apps::LoadPly(Path("run.ply"));
   ASSERT_GT(mesh.vertices.size(), 1000U);
   EXPECT_GT(mesh.triangles.size(), mesh.vertices.size()) << "vertices are shared";
+}
+
+TEST_F(OutputTest, MeshNamedObj_IsTheSameSurfaceAsWavefrontObj) {
+  for (const char* name : {"run.ply", "run.obj"}) {
+    const Outcome outcome =
+        RunTrack({"--sensor", "sim:bottle?frames=10", "--mesh", Path(name)}, scratch());
+    ASSERT_EQ(outcome.exit_status, 0) << outcome.err;
+  }
+  const apps::Surface ply = apps::LoadPly(Path("run.ply"));
+  const apps::Surface obj = apps::LoadModel(Path("run.obj"));
+  ASSERT_EQ(obj.triangles.size(), ply.triangles.size());
+  for (std::size_t t = 0; t < ply.triangles.size(); ++t) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t of_obj = obj.triangles[t][i];
+      const std::uint32_t of_ply = ply.triangles[t][i];
+      ASSERT_LT((obj.vertices[of_obj] - ply.vertices[of_ply]).norm(), 1e-7);
+      ASSERT_GT(obj.normals[of_obj].dot(ply.normals[of_ply]), 0.9999);
+    }
+  }
+}
+
+TEST_F(OutputTest, MeshResolution_DecidesHowManyTrianglesThereAre) {
+  std::vector<std::size_t> triangles;
+  for (const char* resolution_m : {"0.005", "0.0025", "0.00125"}) {
+    const Outcome outcome = RunTrack({"--sensor", "sim:bottle?frames=10", "--mesh", Path("run.ply"),
+                                      "--mesh-resolution", resolution_m},
+                                     scratch());
+    ASSERT_EQ(outcome.exit_status, 0) << outcome.err;
+    triangles.push_back(apps::LoadPly(Path("run.ply")).triangles.size());
+  }
+  EXPECT_GT(triangles[1], 3 * triangles[0]);
+  EXPECT_GT(triangles[2], 3 * triangles[1]);
+}
+
+TEST_F(OutputTest, MeshPicture_ShowsTheObjectOnWhite) {
+  const Outcome outcome =
+      RunTrack({"--sensor", "sim:bottle?frames=10", "--mesh-picture", Path("run.png")}, scratch());
+  ASSERT_EQ(outcome.exit_status, 0) << outcome.err;
+  const std::string png = ReadFile(Path("run.png"));
+  EXPECT_EQ(png.rfind("\x89PNG", 0), 0U);
+  EXPECT_GT(png.size(), 20000U) << "not blank";
+}
+
+TEST_F(OutputTest, Flow_IsOneFilePerFrameInAFolderOfItsOwn) {
+  const Outcome outcome =
+      RunTrack({"--sensor", "sim:bottle?motion=fast&frames=10", "--flow", Path("flow")}, scratch());
+  ASSERT_EQ(outcome.exit_status, 0) << outcome.err;
+  for (int frame = 0; frame < 10; ++frame) {
+    const apps::Surface points = apps::LoadPly(Path("flow/00000" + std::to_string(frame) + ".ply"));
+    ASSERT_GT(points.vertices.size(), 300U);
+    // Camera frame: the object is in front, and what is seen faces the camera.
+    for (std::size_t i = 0; i < points.vertices.size(); ++i) {
+      ASSERT_GT(points.vertices[i].z(), 0.2);
+      ASSERT_LT(points.normals[i].dot(points.vertices[i]), 0.0);
+    }
+  }
+  const Outcome again =
+      RunTrack({"--sensor", "sim:bottle?frames=10", "--flow", Path("flow")}, scratch());
+  EXPECT_EQ(again.exit_status, 4);
+  EXPECT_NE(again.err.find("not empty"), std::string::npos) << again.err;
 }
 
 }  // namespace

@@ -79,6 +79,14 @@ INSTANTIATE_TEST_SUITE_P(
                 {"--sensor", kSensor, "--mesh", "/nonexistent/run.ply"},
                 4,
                 "/nonexistent/run.ply"},
+        Refusal{"MeshTooFine",
+                {"--sensor", kSensor, "--mesh-resolution", "0.0001"},
+                2,
+                "--mesh-resolution"},
+        Refusal{"FlowUnderFile",
+                {"--sensor", kSensor, "--flow", "/dev/null/flow"},
+                4,
+                "/dev/null/flow"},
         Refusal{"MeshIsFolder", {"--sensor", kSensor, "--mesh", "/tmp"}, 4, "/tmp"},
         Refusal{"RecordingUnderFile",
                 {"--sensor", kSensor, "--record", "/dev/null/run"},
@@ -154,8 +162,9 @@ TEST_F(SettingsTest, HelpAndVersion_AreAnswered) {
   const Outcome help = RunTrack({"--help"}, scratch());
   EXPECT_EQ(help.exit_status, 0);
   for (const char* option :
-       {"--sensor", "--link", "--csv", "--mesh", "--config", "--rate", "--headless", "--record",
-        "--profile", "--set", "--frames", "--id", "sim:", "replay:"}) {
+       {"--sensor", "--link", "--csv", "--mesh", "--mesh-resolution", "--mesh-picture", "--flow",
+        "--config", "--rate", "--headless", "--record", "--profile", "--set", "--frames", "--id",
+        "sim:", "replay:"}) {
     EXPECT_NE(help.out.find(option), std::string::npos) << option;
   }
   const Outcome version = RunTrack({"--version"}, scratch());

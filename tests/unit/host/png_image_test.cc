@@ -90,9 +90,8 @@ TEST(PngImage, DamagedByte_IsNoticed) {
 
 TEST(PngImage, Colour_IsRefused) {
   const ScratchDir dir;
-  const auto file = dir.path() / "colour.png";
   const std::vector<std::uint8_t> pixels(3 * kWidth_px * kHeight_px, 100);
-  ASSERT_TRUE(WriteRgbPng(file, pixels, kWidth_px, kHeight_px).ok());
+  const auto file = dir.Write("colour.png", EncodeRgbPng(pixels, kWidth_px, kHeight_px));
   GrayImage image;
   const hal::Fault fault = ReadGrayPng(file, image);
   EXPECT_EQ(fault.status, Status::kUnsupported);

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <memory>
 #include <string>
@@ -178,10 +179,20 @@ hal::Fault WriteGray16Png(const fs::path& file, std::span<const std::uint16_t> p
              width_px, height_px, PNG_COLOR_TYPE_GRAY, 16});
 }
 
-hal::Fault WriteRgbPng(const fs::path& file, std::span<const std::uint8_t> pixels, int width_px,
-                       int height_px) {
-  return WritePng(file, {pixels.data(), std::ptrdiff_t{3} * width_px, width_px, height_px,
-                         PNG_COLOR_TYPE_RGB, 8});
+std::string EncodeRgbPng(std::span<const std::uint8_t> pixels, int width_px, int height_px) {
+  char* bytes = nullptr;
+  std::size_t size = 0;
+  FilePointer memory(::open_memstream(&bytes, &size));
+  PngError error;
+  const bool encoded = memory != nullptr && EncodePng(memory.get(),
+                                                      {pixels.data(), std::ptrdiff_t{3} * width_px,
+                                                       width_px, height_px, PNG_COLOR_TYPE_RGB, 8},
+                                                      error);
+  memory.reset();
+  std::string png;
+  if (encoded) png.assign(bytes, size);
+  std::free(bytes);
+  return png;
 }
 
 }  // namespace disflow::host

@@ -23,7 +23,7 @@ struct MeshView {
 
 /// A shaded picture of a mesh that fills the image, on white. Surfaces seen from behind are grey.
 /// @param vertex_colors One per vertex of the mesh.
-/// @return width x height x 3 bytes; for WriteRgbPng().
+/// @return width x height x 3 bytes; for EncodeRgbPng().
 [[nodiscard]] std::vector<std::uint8_t> RenderMesh(const TriangleMesh& mesh,
                                                    const std::vector<Rgb>& vertex_colors,
                                                    const MeshView& view);

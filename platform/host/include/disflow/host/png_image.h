@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "disflow/hal/fault.h"
@@ -28,9 +29,9 @@ struct GrayImage {
 [[nodiscard]] hal::Fault WriteGray16Png(const std::filesystem::path& file,
                                         std::span<const std::uint16_t> pixels, int width_px,
                                         int height_px);
-/// @param pixels Red, green, blue, 8 bits each.
-[[nodiscard]] hal::Fault WriteRgbPng(const std::filesystem::path& file,
-                                     std::span<const std::uint8_t> pixels, int width_px,
-                                     int height_px);
+/// The bytes of a PNG file. @param pixels Red, green, blue, 8 bits each.
+/// @return Empty if libpng refuses.
+[[nodiscard]] std::string EncodeRgbPng(std::span<const std::uint8_t> pixels, int width_px,
+                                       int height_px);
 
 }  // namespace disflow::host
