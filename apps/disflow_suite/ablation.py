@@ -26,10 +26,11 @@ VARIANTS = (
     Variant("no graduated non-convexity: kernel narrow at once", ("registration.robust_scale_start_m=0.0001",)),
     Variant("no gate on normals", ("registration.min_normal_cos=-1",)),
     Variant("no temporal regulariser", ("registration.temporal_std_m=10", "registration.temporal_std_rad=10")),
-    Variant("damping as strong as usual", ("registration.damping=0.01",)),
+    Variant("damping of 0.01 diag(H)", ("registration.damping=0.01",)),
     # Sampling.
     Variant("samples weighed alike: σ at least 1 mm", ("sampler.sample_floor_m=0.001",)),
     Variant("sensor noise given, not estimated", ("sampler.inverse_depth_std_per_m=0.0024",)),
+    Variant("curved windows taken for clutter", ("sampler.max_bend_ratio=0",)),
     # Field.
     Variant("no averaging: the first observation stays", ("field.freeze_after=1",)),
     Variant("no freezing", ("field.freeze_after=250",)),
