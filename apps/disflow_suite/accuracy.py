@@ -186,7 +186,7 @@ def _surface_table(results):
         if row.name in results.baseline:
             baseline = results.baseline[row.name]
             lines.append([f"the same, {TSDF}"] + [FIGURES[name].show(baseline.mean(name)) for name in names])
-    return pages.table(head, lines) if lines else ""
+    return pages.table(head, lines)
 
 
 def _time_table(results):
@@ -198,7 +198,7 @@ def _time_table(results):
             mark = MET if goal.is_met(value) else MISSED
             line.append(f"{FIGURES[goal.figure].show(value)} ({goal.show()}) {mark}")
         lines.append(line)
-    return pages.table(["time per frame", "median ms", "99th percentile ms"], lines) if lines else ""
+    return pages.table(["time per frame", "median ms", "99th percentile ms"], lines)
 
 
 def summary_line(results):
@@ -213,6 +213,7 @@ def missed_goals(results):
 def page(results, plots):
     """What stands between the markers of docs/results.md."""
     seeds = f"seeds {results.seeds[0]} to {results.seeds[-1]}" if len(results.seeds) > 1 else f"seed {results.seeds[0]}"
+    fits = results.tracker_bytes <= sequences.MEMORY_LIMIT_BYTES
     parts = [
         f"Means over {seeds}; in parentheses the goal, {MET} met, {MISSED} missed. **{summary_line(results)}** "
         "“Longest false” is the longest stretch of frames that were reported as “tracking” though off by more than "
@@ -224,17 +225,24 @@ def page(results, plots):
         "Share of frames whose normalised squared error (NEES) lies between the 2.5 % and 97.5 % bounds of a truthful "
         "covariance, 1.24 and 14.45. A mean NEES above 6 says that the covariance is too small, below 6 too large.",
         _consistency_table(results),
-        "### Surface",
-        f"The {TSDF} fuses the same images with the same poses (2 mm voxels).",
-        _surface_table(results),
+    ]
+    if any(row.mesh for row in results.rows):
+        parts += ["### Surface"]
+        if results.baseline:
+            parts += [f"The {TSDF} fuses the same images with the same poses (Open3D, 2 mm voxels)."]
+        parts += [_surface_table(results)]
+    parts += [
         "### Time and memory",
         f"`Tracker<profiles::Edge>` is {results.tracker_bytes} bytes (≤ {sequences.MEMORY_LIMIT_BYTES}) "
-        + (MET if results.tracker_bytes <= sequences.MEMORY_LIMIT_BYTES else MISSED)
-        + f". Times of one run alone on one core, the fastest of {TIME_REPEATS}, reading the frame not included:",
-        _time_table(results),
+        f"{MET if fits else MISSED}.",
     ]
+    if results.times:
+        parts += [
+            f"Times of one run alone on one core, the fastest of {TIME_REPEATS}, reading the frame not included:",
+            _time_table(results),
+        ]
     parts += [f"![{title}]({file})" for file, title in plots]
-    return "\n\n".join(part.strip() for part in parts if part)
+    return "\n\n".join(part.strip() for part in parts)
 
 
 def write_json(path, results):
