@@ -13,6 +13,11 @@ constexpr float kInitialSpeedStd_mps = 0.5F;
 constexpr float kInitialRateStd_rps = 3.0F;
 constexpr float kInitialAccelerationStd_mps2 = 3.0F;
 constexpr float kInitialAngularAccelerationStd_rps2 = 20.0F;
+// A normalised innovation squared that smooth motion exceeds once in a million frames (chi-squared,
+// six degrees of freedom), and what an impulse may do.
+constexpr float kImpulseNis = 38.0F;
+constexpr float kImpulseSpeedStd_mps = 1.0F;
+constexpr float kImpulseRateStd_rps = 8.0F;
 // Beyond this gap the extrapolation by velocity is worthless; the covariance says so anyway.
 constexpr float kMaxStep_s = 2.0F;
 
@@ -20,6 +25,11 @@ Mat6 Diagonal(float linear, float angular) noexcept {
   Vec6 diagonal;
   diagonal << Vec3::Constant(linear), Vec3::Constant(angular);
   return diagonal.asDiagonal();
+}
+
+Mat6 InitialAcceleration() noexcept {
+  return Diagonal(kInitialAccelerationStd_mps2 * kInitialAccelerationStd_mps2,
+                  kInitialAngularAccelerationStd_rps2 * kInitialAngularAccelerationStd_rps2);
 }
 
 float Seconds(StampNs from_ns, StampNs to_ns) noexcept {
@@ -48,9 +58,7 @@ void TwistFilter::RestartMotion() noexcept {
   }
   covariance_[1][1] = Diagonal(kInitialSpeedStd_mps * kInitialSpeedStd_mps,
                                kInitialRateStd_rps * kInitialRateStd_rps);
-  covariance_[2][2] =
-      Diagonal(kInitialAccelerationStd_mps2 * kInitialAccelerationStd_mps2,
-               kInitialAngularAccelerationStd_rps2 * kInitialAngularAccelerationStd_rps2);
+  covariance_[2][2] = InitialAcceleration();
 }
 
 void TwistFilter::Start(const TwistFilterConfig& config, StampNs stamp_ns,
@@ -69,6 +77,7 @@ PoseCameraFromObject TwistFilter::Extrapolate(StampNs stamp_ns) const noexcept {
 void TwistFilter::Predict(StampNs stamp_ns) noexcept {
   const float dt = Seconds(stamp_ns_, stamp_ns);
   const float half_dt2 = 0.5F * dt * dt;
+  last_step_s_ = dt;
   T_co_ = Moved(T_co_, dt * twist_ + half_dt2 * acceleration_);
   twist_ += dt * acceleration_;
   stamp_ns_ = stamp_ns;
@@ -87,6 +96,21 @@ void TwistFilter::Predict(StampNs stamp_ns) noexcept {
   AddProcessNoise(dt);
 }
 
+/// The object was hit or let go since the last frame, at an unknown time: its velocity may have
+/// jumped, and what was known of its acceleration is void.
+void TwistFilter::AddImpulse() noexcept {
+  const Mat6 jump = Diagonal(kImpulseSpeedStd_mps * kImpulseSpeedStd_mps,
+                             kImpulseRateStd_rps * kImpulseRateStd_rps);
+  const float dt = last_step_s_;
+  covariance_[0][0] += (dt * dt / 3.0F) * jump;
+  covariance_[0][1] += (0.5F * dt) * jump;
+  covariance_[1][0] += (0.5F * dt) * jump;
+  covariance_[1][1] += jump;
+  for (std::size_t i = 0; i < kBlocks; ++i) covariance_[2][i] = covariance_[i][2] = Mat6::Zero();
+  covariance_[2][2] = InitialAcceleration();
+  acceleration_.setZero();
+}
+
 void TwistFilter::AddProcessNoise(float dt) noexcept {
   const Mat6 jerk_psd = Diagonal(config_.linear_jerk_psd, config_.angular_jerk_psd);
   const float dt2 = dt * dt;
@@ -103,9 +127,13 @@ void TwistFilter::Update(const PoseCameraFromObject& T_co, const Mat6& pose_cova
   Vec6 innovation;
   innovation.head<3>() = T_co.translation() - T_co_.translation();
   innovation.tail<3>() = LogSo3(Mat3(T_co.rotation() * T_co_.rotation().transpose()));
-  const Mat6 innovation_covariance = covariance_[0][0] + pose_covariance;
-  const SymmetricSolver6 solver(innovation_covariance);
+  SymmetricSolver6 solver(covariance_[0][0] + pose_covariance);
   if (!solver.ok()) return;  // only for a measurement that is not finite; the prediction stands
+  if (innovation.dot(solver.Solve(innovation)) > kImpulseNis) {
+    AddImpulse();
+    solver = SymmetricSolver6(covariance_[0][0] + pose_covariance);
+    if (!solver.ok()) return;
+  }
 
   std::array<Mat6, kBlocks> gain;
   for (std::size_t i = 0; i < kBlocks; ++i) {

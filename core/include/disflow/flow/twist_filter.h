@@ -9,7 +9,7 @@
 
 namespace disflow {
 
-/// Kalman filter with constant acceleration, driven by registered poses; yields velocity at the
+/// Kalman filter with constant acceleration, open to impulses, driven by registered poses; yields velocity at the
 /// frame's capture time. A finite difference of poses would lag by half a frame. Bar-Shalom et al.,
 /// "Estimation with Applications to Tracking and Navigation", section 6.2.3 (white-noise jerk).
 ///
@@ -40,9 +40,11 @@ class TwistFilter {
   using Covariance = std::array<std::array<Mat6, kBlocks>, kBlocks>;
 
   void AddProcessNoise(float dt_s) noexcept;
+  void AddImpulse() noexcept;
 
   TwistFilterConfig config_{};
   StampNs stamp_ns_ = 0;
+  float last_step_s_ = 0.0F;
   PoseCameraFromObject T_co_;
   Vec6 twist_ = Vec6::Zero();
   Vec6 acceleration_ = Vec6::Zero();
