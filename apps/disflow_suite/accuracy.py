@@ -115,7 +115,7 @@ def _goals_of(results, row):
         for surface in sequences.SURFACE:
             limit = results.baseline[row.name].mean(surface.figure)
             if limit is not None:
-                yield Goal(surface.figure, surface.relation, round(limit, FIGURES[surface.figure].digits))
+                yield Goal(surface.figure, surface.relation[0], limit)
 
 
 def _check_goals(results):

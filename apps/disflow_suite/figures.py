@@ -58,23 +58,31 @@ def read_all(report):
     return {name: figure.read(report) for name, figure in FIGURES.items()}
 
 
+# The strict ones are for figures that another system has to be better than.
+SIGNS = {"<=": "≤", ">=": "≥", "<": "<", ">": ">"}
+
+
 @dataclasses.dataclass(frozen=True)
 class Goal:
     """What the mean of a figure over the seeds shall reach."""
 
     figure: str
-    relation: str  # "<=" or ">="
+    relation: str  # One of the keys of SIGNS.
     limit: float
 
     def is_met(self, value):
         if value is None:
             return False
+        if self.relation == ">":
+            return value > self.limit
+        if self.relation == "<":
+            return value < self.limit
         # What is shown decides, so that no table contradicts itself.
         shown = round(value, FIGURES[self.figure].digits)
         return shown <= self.limit if self.relation == "<=" else shown >= self.limit
 
     def show(self):
-        return f"{'≤' if self.relation == '<=' else '≥'} {self.limit:g}"
+        return f"{SIGNS[self.relation]} {self.limit:.4g}"
 
 
 class Summary:
