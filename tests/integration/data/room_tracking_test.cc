@@ -18,8 +18,8 @@ using Pose = Eigen::Isometry3d;
 
 constexpr int kFrames = 150;
 constexpr double kDegreesPerRadian = 57.29577951308232;
-constexpr double kEndDistance_m = 0.03;
-constexpr double kEndAngle_deg = 1.5;
+constexpr double kEndDistance_m = 0.02;
+constexpr double kEndAngle_deg = 1.0;
 
 /// Camera to world, as the recording gives it.
 Pose GivenPose(const fs::path& folder, int frame) {
