@@ -75,14 +75,14 @@ struct RegistrationConfig {
   float hypothesis_score = 0.75F;
   int hypothesis_iterations = 3;
   int score_points = 120;
-  float covariance_inflation = 4.0F;
-  float drift_inflation = 10.0F;
+  float covariance_inflation = 1.0F;
+  float drift_inflation = 8.0F;
 };
 
 /// Velocity at the capture time.
 struct TwistFilterConfig {
-  float linear_jerk_psd = 30.0F;
-  float angular_jerk_psd = 500.0F;
+  float linear_jerk_psd = 1.0F;
+  float angular_jerk_psd = 15.0F;
 };
 
 /// When to trust, doubt and give up the pose.

@@ -130,9 +130,9 @@ constexpr void VisitFields(ConfigType& config, Visitor&& visitor) {
   field("registration.covariance_inflation", reg.covariance_inflation, 1.0, 1e4, "1",
         "factor on the pose covariance for what the noise model leaves out: correlated noise and "
         "model error");
-  field("registration.drift_inflation", reg.drift_inflation, 1.0, 1e4, "1",
-        "further factor on the reported pose covariance, for drift of the model that all frames "
-        "share");
+  field("registration.drift_inflation", reg.drift_inflation, 0.0, 1e4, "1",
+        "what each piece of surface between the first view and the present one adds to the reported "
+        "pose covariance, in multiples of the registration's own");
   auto& twist = config.twist;
   field("twist.linear_jerk_psd", twist.linear_jerk_psd, 1e-6, 1e9, "m^2/s^5",
         "power density of the jerk, translation");

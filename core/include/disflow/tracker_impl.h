@@ -197,8 +197,12 @@ Status Tracker<Limits>::Conclude(const DepthFrame& frame, Status observed, const
   monitor_.Update(evidence, frame.stamp_ns);
   // The twist filter sees differences between frames, in which the drift of the model cancels; the
   // pose does not.
-  estimate.pose_covariance = config_.registration.drift_inflation *
-                             (accepted ? covariance : twist_filter_.pose_covariance());
+  estimate.pose_covariance = twist_filter_.pose_covariance();
+  if (accepted) {
+    estimate.pose_covariance =
+        (1.0F + config_.registration.drift_inflation * (1.0F + aligned.generation)) * covariance;
+    field_.SetGeneration(aligned.generation + 1.0F);
+  }
   if (observed != Status::kOk) return observed;
   return accepted ? Status::kOk : Status::kRegistrationFailed;
 }

@@ -34,6 +34,9 @@ struct Cluster {
   bool used;
   float dirtiness;           ///< What changed since the last training, in observations.
   std::uint32_t last_frame;  ///< When it was last observed.
+  /// How many pieces of surface lie between this one and the first view, each registered to the one
+  /// before: errors of the pose add up along that chain.
+  float generation;
 
   void Start(const OctreeCell& in_cell, Handle in_leaf, Handle next_in_leaf) noexcept {
     cell = in_cell;
@@ -46,6 +49,7 @@ struct Cluster {
     used = true;
     dirtiness = 0.0F;
     last_frame = 0;
+    generation = 0.0F;
   }
 
   void UpdateMeans() noexcept {

@@ -24,6 +24,7 @@ class DistanceField {
     float distance_m = 0.0F;       ///< d
     Vec3 gradient = Vec3::Zero();  ///< grad d
     float variance_m2 = 0.0F;      ///< V[d]
+    float generation = 0.0F;       ///< Of the piece of surface, see Cluster.
   };
 
   enum class Fusion : std::uint8_t { kAdded, kMerged, kFrozen, kRejected, kRefused };
@@ -31,9 +32,13 @@ class DistanceField {
   void Start(const FieldConfig& config) noexcept {
     config_ = config;
     hyper_ = {config.length_scale_m, config.prior_gradient_std};
+    generation_ = 0.0F;
     store_.Start(config.cell_size_m, config.crease_cos);
     has_bounds_ = false;
   }
+
+  /// Of the surface that is found from now on.
+  void SetGeneration(float generation) noexcept { generation_ = generation; }
 
   [[nodiscard]] const Store& store() const noexcept { return store_; }
   [[nodiscard]] const GpHyperparameters& hyperparameters() const noexcept { return hyper_; }
@@ -142,6 +147,7 @@ class DistanceField {
 
   void Evaluate(const ClusterType& cluster, const Vec3& x_m, Match& match) const noexcept {
     match.found = true;
+    match.generation = cluster.generation;
     if (cluster.gp.trained()) {
       cluster.gp.Mean(x_m, match.distance_m, match.gradient);
       match.variance_m2 = cluster.gp.SurfaceVariance();
@@ -207,6 +213,7 @@ class DistanceField {
     if (handle == kNoHandle) return Fusion::kRefused;
     ClusterType& cluster = store_[handle];
     cluster.last_frame = frame;
+    if (cluster.samples.empty()) cluster.generation = generation_;
     const ModelSample sample{observation.position_m, observation.normal,
                              observation.fused_variance_m2, observation.normal_variance, 1};
     if (!cluster.samples.push_back(sample)) {
@@ -249,6 +256,7 @@ class DistanceField {
   GpWorkspace<Limits::kMaxTrainingSamples> workspace_;
   FieldConfig config_{};
   GpHyperparameters hyper_{};
+  float generation_ = 0.0F;
   Vec3 bounds_min_m_ = Vec3::Zero();
   Vec3 bounds_max_m_ = Vec3::Zero();
   bool has_bounds_ = false;

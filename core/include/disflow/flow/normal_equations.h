@@ -18,6 +18,7 @@ struct NormalEquations {
   int edge_inliers = 0;
   float weighted_square_sum = 0.0F;
   float weight_sum = 0.0F;
+  float generation_sum = 0.0F;
 
   /// @param lever_m The point relative to the centre of rotation.
   /// @param gradient Derivative of the residual by the point's position, object frame.

@@ -35,6 +35,7 @@ class Registration {
     int inliers = 0;
     int edge_inliers = 0;
     float rms_m = 0.0F;
+    float generation = 0.0F;  ///< Mean over the surface that was registered to, see Cluster.
     int unmatched = 0;
     int truncated = 0;
     int normal_mismatch = 0;
@@ -150,6 +151,7 @@ class Registration {
       AddEdge(model_edges, config, edge, scale_m, result, equations);
     result.inliers = equations.inliers;
     result.edge_inliers = equations.edge_inliers;
+    result.generation = equations.generation_sum / std::fmax(equations.weight_sum, 1e-9F);
     result.rms_m =
         std::sqrt(equations.weighted_square_sum / std::fmax(equations.weight_sum, 1e-9F));
 
@@ -197,6 +199,7 @@ class Registration {
     equations.Add(x_o - result.center_m, match.gradient / norm, residual_m, weight);
     equations.weighted_square_sum += robust * residual_m * residual_m;
     equations.weight_sum += robust;
+    equations.generation_sum += robust * match.generation;
     if (robust > 0.25F) ++equations.inliers;
   }
 
