@@ -25,6 +25,7 @@ class DistanceField {
     Vec3 gradient = Vec3::Zero();  ///< grad d
     float variance_m2 = 0.0F;      ///< V[d]
     float generation = 0.0F;       ///< Of the piece of surface, see Cluster.
+    Handle cluster = kNoHandle;    ///< Where it was found, for Reuse().
   };
 
   enum class Fusion : std::uint8_t { kAdded, kMerged, kFrozen, kRejected, kRefused };
@@ -60,6 +61,15 @@ class DistanceField {
     const ClusterType& cluster = store_[handle];
     if (TangentialDistanceSquared(cluster, x_m) > radius_m * radius_m) return match;
     Evaluate(cluster, x_m, match);
+    match.cluster = handle;
+    return match;
+  }
+
+  /// The same piece of surface as in an earlier match, seen from a point nearby: no search.
+  [[nodiscard]] Match Reuse(Handle cluster, const Vec3& x_m) const noexcept {
+    Match match;
+    Evaluate(store_[cluster], x_m, match);
+    match.cluster = cluster;
     return match;
   }
 

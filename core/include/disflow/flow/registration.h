@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "disflow/config.h"
@@ -100,9 +101,10 @@ class Registration {
     Result result;
     result.T_oc = T_start;
     float scale_m = config.robust_scale_start_m;
+    Correspondences matched;
     for (int i = 0; i < iterations; ++i, scale_m *= 0.5F) {
       const NormalEquations equations =
-          Linearise(field, model_edges, config, T_predicted, scale_m, result);
+          Linearise(field, model_edges, config, T_predicted, scale_m, result, matched);
       Vec6 xi;
       if (equations.inliers < kFewestInliers || !equations.Solve(config.damping, xi)) {
         result.solved = false;
@@ -112,6 +114,10 @@ class Registration {
       result.iterations = i + 1;
       result.solved = true;
       result.information = equations.h;
+      // Near the end the points hardly move: they keep the surface that they were matched with.
+      matched.known = i + 1 >= kSearches && scale_m < kSettledScale_m &&
+                      xi.template head<3>().norm() < kSettled_m &&
+                      xi.template tail<3>().norm() < kSettled_rad;
       if (i + 1 >= kFewestSteps && xi.template head<3>().norm() < kConverged_m &&
           xi.template tail<3>().norm() < kConverged_rad) {
         break;
@@ -123,8 +129,19 @@ class Registration {
  private:
   static constexpr int kFewestInliers = 12;
   static constexpr int kFewestSteps = 5;
+  static constexpr int kSearches = 2;
+  static constexpr float kSettledScale_m = 0.003F;
+  static constexpr float kSettled_m = 5e-4F;
+  static constexpr float kSettled_rad = 5e-3F;
   static constexpr float kConverged_m = 1e-5F;
   static constexpr float kConverged_rad = 1e-4F;
+
+  /// What the samples and edges were matched with in the last search.
+  struct Correspondences {
+    bool known = false;
+    std::array<Handle, static_cast<std::size_t>(Limits::kMaxRegistrationPoints)> clusters;
+    std::array<const typename Model::Edge*, static_cast<std::size_t>(Limits::kMaxEdgePoints)> edges;
+  };
 
   /// T <- exp(xi) T, with the rotation about a centre instead of the origin: better conditioned in
   /// float.
@@ -141,14 +158,14 @@ class Registration {
   [[nodiscard]] NormalEquations Linearise(const Field& field, const Model& model_edges,
                                           const RegistrationConfig& config,
                                           const PoseObjectFromCamera& T_predicted, float scale_m,
-                                          Result& result) const noexcept {
+                                          Result& result, Correspondences& matched) const noexcept {
     NormalEquations equations;
     result.center_m = result.T_oc * center_c_;
     result.unmatched = result.truncated = result.normal_mismatch = 0;
-    for (const SurfaceSample& sample : samples_)
-      AddSample(field, config, sample, scale_m, result, equations);
-    for (const EdgePoint& edge : *edges_)
-      AddEdge(model_edges, config, edge, scale_m, result, equations);
+    for (int i = 0; i < samples_.size(); ++i)
+      AddSample(field, config, i, scale_m, result, matched, equations);
+    for (int i = 0; i < edges_->size(); ++i)
+      AddEdge(model_edges, config, i, scale_m, result, matched, equations);
     result.inliers = equations.inliers;
     result.edge_inliers = equations.edge_inliers;
     result.generation = equations.generation_sum / std::fmax(equations.weight_sum, 1e-9F);
@@ -162,11 +179,18 @@ class Registration {
     return equations;
   }
 
-  void AddSample(const Field& field, const RegistrationConfig& config, const SurfaceSample& sample,
-                 float scale_m, Result& result, NormalEquations& equations) const noexcept {
+  void AddSample(const Field& field, const RegistrationConfig& config, int index, float scale_m,
+                 Result& result, Correspondences& matched,
+                 NormalEquations& equations) const noexcept {
+    const SurfaceSample& sample = samples_[index];
     const Vec3 x_o = result.T_oc * sample.position_m;
     const Vec3 n_o = result.T_oc.rotation() * sample.normal;
-    auto match = field.FindMatch(x_o, n_o, config.match_radius_m + scale_m, config.min_normal_cos);
+    Handle& cluster = matched.clusters[static_cast<std::size_t>(index)];
+    auto match =
+        matched.known && cluster != kNoHandle
+            ? field.Reuse(cluster, x_o)
+            : field.FindMatch(x_o, n_o, config.match_radius_m + scale_m, config.min_normal_cos);
+    cluster = match.cluster;
     if (!match.found) {
       if (match.normal_mismatch) {
         ++result.normal_mismatch;
@@ -205,6 +229,7 @@ class Registration {
 
   struct EdgeResidual {
     bool found = false;
+    const typename Model::Edge* edge = nullptr;
     Vec3 position_m = Vec3::Zero();  ///< Object frame.
     Vec3 gradient = Vec3::Zero();
     float residual_m = 0.0F;
@@ -214,14 +239,15 @@ class Registration {
   [[nodiscard]] static EdgeResidual FindEdge(const Model& model_edges,
                                              const RegistrationConfig& config,
                                              const EdgePoint& point,
-                                             const PoseObjectFromCamera& T_oc,
-                                             float radius_m) noexcept {
+                                             const PoseObjectFromCamera& T_oc, float radius_m,
+                                             const typename Model::Edge* known = nullptr) noexcept {
     const Mat3& r = T_oc.rotation();
     const EdgePoint moved{T_oc * point.position_m, r * point.direction, r * point.normal,
                           r * point.ray, point.pixel_m};
     EdgeResidual result;
-    const auto* edge = model_edges.FindNearest(moved, radius_m);
+    const auto* edge = known != nullptr ? known : model_edges.FindNearest(moved, radius_m);
     if (edge == nullptr) return result;
+    result.edge = edge;
     // The outline in the image moves only across the ray and across the edge.
     const Vec3 across = moved.ray.cross(edge->direction);
     const float sine = across.norm();
@@ -234,11 +260,15 @@ class Registration {
     return result;
   }
 
-  static void AddEdge(const Model& model_edges, const RegistrationConfig& config,
-                      const EdgePoint& point, float scale_m, const Result& result,
-                      NormalEquations& equations) noexcept {
+  void AddEdge(const Model& model_edges, const RegistrationConfig& config, int index, float scale_m,
+               const Result& result, Correspondences& matched,
+               NormalEquations& equations) const noexcept {
+    auto& known = matched.edges[static_cast<std::size_t>(index)];
+    if (matched.known && known == nullptr) return;
     const EdgeResidual edge =
-        FindEdge(model_edges, config, point, result.T_oc, config.match_radius_m + scale_m);
+        FindEdge(model_edges, config, (*edges_)[index], result.T_oc,
+                 config.match_radius_m + scale_m, matched.known ? known : nullptr);
+    known = edge.edge;
     if (!edge.found) return;
     const float robust = GemanMcClure(
         edge.residual_m, std::fmax(scale_m, config.robust_scale_sigmas * edge.sigma_m));
