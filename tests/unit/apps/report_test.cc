@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "errors.h"
+#include "frame_table.h"
 #include "plots.h"
 #include "run_builder.h"
 #include "scratch_dir.h"
@@ -33,6 +34,18 @@ Report MakeReport(int frames = 20) {
   report.run = Align(made.truth, report.estimates);
   report.poses = EvaluatePoses(report.run, CuboidCorners());
   report.stages = EvaluateTiming(report.estimates);
+  return report;
+}
+
+/// A report whose rows state a covariance, so that there are NEES.
+Report MakeReportWithCovariance() {
+  Report report = MakeReport();
+  for (EstimateRow& row : report.estimates.rows) {
+    row.pose_covariance = Mat6d::Identity();
+    row.twist_covariance = Mat6d::Identity();
+  }
+  report.pose_consistency = EvaluatePoseConsistency(report.run);
+  report.twist_consistency = EvaluateTwistConsistency(report.run);
   return report;
 }
 
@@ -114,6 +127,31 @@ TEST(PlotsTest, EveryPlot_IsWrittenEvenIntoAFolderWithAStrangeName) {
   for (const Plot& plot : plots) EXPECT_TRUE(std::filesystem::exists(folder / plot.file));
   EXPECT_FALSE(std::filesystem::exists(dir.path() / "hacked"));
   EXPECT_EQ(ReadFile(folder / "plots.gp").find("quoted"), std::string::npos);
+}
+
+TEST(PlotsTest, ReportWithCovariances_HasAPlotOfTheNees) {
+  const ScratchDir dir;
+  const PathGuard path(FakeGnuplot(dir, "exit 0"));
+  const std::vector<Plot> plots = WritePlots(MakeReportWithCovariance(), dir.path());
+  EXPECT_EQ(std::count_if(plots.begin(), plots.end(),
+                          [](const Plot& plot) { return plot.file == "nees.png"; }),
+            1);
+}
+
+TEST(FrameTableTest, EveryFrame_HasItsLineAndWhatIsNotKnownIsNan) {
+  const std::string text = FormatFrames(MakeReportWithCovariance());
+  const std::vector<Line> lines = NonEmptyLines(text);
+  ASSERT_EQ(lines.size(), 21U);
+  const auto names = SplitAt(lines[0].text, ',');
+  const auto nees = std::find(names.begin(), names.end(), "pose_nees") - names.begin();
+  const auto column = static_cast<std::size_t>(nees);
+  EXPECT_EQ(SplitAt(lines[1].text, ',')[column], "nan") << "the aligned frame is exact";
+  for (std::size_t i = 2; i < lines.size(); ++i) {
+    const auto fields = SplitAt(lines[i].text, ',');
+    ASSERT_EQ(fields.size(), names.size());
+    EXPECT_EQ(ParseNumber(fields[0]), static_cast<double>(i - 1));
+    EXPECT_LT(ParseNumber(fields[column]).value_or(1.0), 1e-9);
+  }
 }
 
 TEST(PlotsTest, MissingFrames_LeaveAGapInTheData) {
