@@ -21,8 +21,8 @@ void PrintPart(const char* part) {
 }
 
 template <class L>
-struct Masks {
-  static constexpr std::size_t kBytes = 2 * sizeof(typename disflow::Segmenter<L>::Mask);
+struct ObjectMask {
+  static constexpr std::size_t kBytes = sizeof(typename disflow::Segmenter<L>::Mask);
 };
 template <class L>
 struct Segmenter {
@@ -73,8 +73,8 @@ struct Surface {
 int main() {
   std::printf("| %-44s | %9s | %9s | %9s |\n", "bytes", "Micro", "Edge", "Dense");
   std::printf("|---|---:|---:|---:|\n");
-  PrintPart<Masks>("object masks (2)");
-  PrintPart<Segmenter>("segmentation without a mask: pixel runs");
+  PrintPart<ObjectMask>("object mask");
+  PrintPart<Segmenter>("segmentation: pixel runs and two image rows");
   PrintPart<Sampler>("pixel blocks, planes and surface samples");
   PrintPart<Edges>("occluding edges: frame and model");
   PrintPart<Octree>("octree");

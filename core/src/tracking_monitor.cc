@@ -11,6 +11,7 @@ namespace {
 constexpr float kPositionStdHalf_m = 0.005F;
 constexpr float kRotationStdHalf_rad = 0.05F;
 constexpr float kFewestInlierShare = 0.15F;
+constexpr float kFewestRecoveredShare = 0.55F;
 
 }  // namespace
 
@@ -23,23 +24,38 @@ void TrackingMonitor::Start(const MonitorConfig& config, StampNs stamp_ns) noexc
   last_registered_ns_ = stamp_ns;
 }
 
-bool TrackingMonitor::Accepts(const Evidence& evidence) const noexcept {
-  return evidence.registered && evidence.score >= config_.lost_score &&
-         static_cast<float>(evidence.inliers) >=
-             kFewestInlierShare * static_cast<float>(evidence.points);
+bool TrackingMonitor::Accepts(const Evidence& evidence, StampNs stamp_ns) const noexcept {
+  const float inlier_share =
+      static_cast<float>(evidence.inliers) / static_cast<float>(std::max(evidence.points, 1));
+  if (!evidence.registered) return false;
+  if (!Doubts(stamp_ns)) {
+    return evidence.score >= config_.lost_score && evidence.conflict <= config_.lost_conflict &&
+           inlier_share >= kFewestInlierShare;
+  }
+  return evidence.score >= config_.recovered_score && inlier_share >= kFewestRecoveredShare &&
+         evidence.conflict <= config_.degraded_conflict;
+}
+
+/// Tracking means: three standard deviations are within 2 cm and 10 degrees.
+bool TrackingMonitor::Trusts(const Evidence& evidence) const noexcept {
+  return evidence.score >= config_.degraded_score &&
+         evidence.conflict <= config_.degraded_conflict &&
+         evidence.position_std_m <= config_.degraded_std_m &&
+         evidence.rotation_std_rad <= config_.degraded_std_rad;
 }
 
 std::uint8_t TrackingMonitor::Grade(const Evidence& evidence) const noexcept {
   const float position = 1.0F / (1.0F + evidence.position_std_m / kPositionStdHalf_m);
   const float rotation = 1.0F / (1.0F + evidence.rotation_std_rad / kRotationStdHalf_rad);
-  const float grade =
-      100.0F * std::clamp(evidence.score, 0.0F, 1.0F) * std::sqrt(position * rotation);
+  const float grade = 100.0F *
+                      std::clamp(evidence.score * (1.0F - 2.0F * evidence.conflict), 0.0F, 1.0F) *
+                      std::sqrt(position * rotation);
   return static_cast<std::uint8_t>(std::clamp(std::lround(grade), 1L, 100L));
 }
 
 void TrackingMonitor::Update(const Evidence& evidence, StampNs stamp_ns) noexcept {
   const TrackingState before = state_;
-  if (!Accepts(evidence)) {
+  if (!evidence.registered) {
     ++missed_;
     quality_ = static_cast<std::uint8_t>(quality_ / 2);
     if (missed_ >= config_.lost_after_frames) {
@@ -52,18 +68,26 @@ void TrackingMonitor::Update(const Evidence& evidence, StampNs stamp_ns) noexcep
     missed_ = 0;
     last_registered_ns_ = stamp_ns;
     quality_ = Grade(evidence);
-    const bool good = evidence.score >= config_.degraded_score;
-    if (state_ == TrackingState::kLost) {
-      state_ = TrackingState::kRecovered;
-    } else if (state_ == TrackingState::kInitialising || state_ == TrackingState::kRecovered) {
-      const int needed = state_ == TrackingState::kInitialising ? kInitialFrames : kRecoveryFrames;
-      if (frames_in_state_ + 1 >= needed)
-        state_ = good ? TrackingState::kTracking : TrackingState::kDegraded;
-    } else {
-      state_ = good ? TrackingState::kTracking : TrackingState::kDegraded;
-    }
+    state_ = AfterRegistered(evidence);
   }
   frames_in_state_ = state_ == before ? frames_in_state_ + 1 : 0;
+}
+
+TrackingState TrackingMonitor::AfterRegistered(const Evidence& evidence) const noexcept {
+  switch (state_) {
+    case TrackingState::kLost:
+      return TrackingState::kRecovered;
+    case TrackingState::kInitialising:
+      if (frames_in_state_ + 1 < kInitialFrames) return state_;
+      break;
+    case TrackingState::kRecovered:
+      if (frames_in_state_ + 1 < kRecoveryFrames) return state_;
+      break;
+    case TrackingState::kTracking:
+    case TrackingState::kDegraded:
+      break;
+  }
+  return Trusts(evidence) ? TrackingState::kTracking : TrackingState::kDegraded;
 }
 
 bool TrackingMonitor::ShouldRestart(StampNs stamp_ns) const noexcept {

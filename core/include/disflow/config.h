@@ -16,6 +16,8 @@ struct SegmenterConfig {
   float max_range_m = 4.0F;
   float depth_jump_ratio = 0.02F;
   float model_margin_m = 0.03F;
+  float explained_m = 0.012F;
+  float lost_margin_m = 0.05F;
   int roi_x_px = 0;
   int roi_y_px = 0;
   int roi_width_px = 0;
@@ -89,7 +91,12 @@ struct TwistFilterConfig {
 struct MonitorConfig {
   int min_samples = 60;
   float degraded_score = 0.6F;
+  float degraded_conflict = 0.15F;
+  float degraded_std_m = 0.0067F;
+  float degraded_std_rad = 0.058F;
   float lost_score = 0.3F;
+  float lost_conflict = 0.4F;
+  float recovered_score = 0.75F;
   int lost_after_frames = 3;
   float reinitialise_after_s = 1.5F;
 };

@@ -35,6 +35,10 @@ constexpr void VisitFields(ConfigType& config, Visitor&& visitor) {
         "different surfaces");
   field("segmenter.model_margin_m", seg.model_margin_m, 0.0, 1.0, "m",
         "without a mask, pixels farther than this from the predicted model are not the object");
+  field("segmenter.explained_m", seg.explained_m, 1e-4, 1.0, "m",
+        "pixels this close to the predicted model's surface are taken for the object");
+  field("segmenter.lost_margin_m", seg.lost_margin_m, 0.0, 1.0, "m",
+        "added to model_margin_m while the object is lost");
   field("segmenter.roi_x_px", seg.roi_x_px, 0, 8192, "px", "region of interest, left edge");
   field("segmenter.roi_y_px", seg.roi_y_px, 0, 8192, "px", "region of interest, top edge");
   field("segmenter.roi_width_px", seg.roi_width_px, 0, 8192, "px",
@@ -143,8 +147,19 @@ constexpr void VisitFields(ConfigType& config, Visitor&& visitor) {
         "fewer surface samples do not make a pose");
   field("monitor.degraded_score", mon.degraded_score, 0.0, 1.0, "1",
         "below this score the state is degraded");
+  field("monitor.degraded_conflict", mon.degraded_conflict, 0.0, 1.0, "1",
+        "with a larger share of the model not where it should be the state is degraded");
+  field("monitor.degraded_std_m", mon.degraded_std_m, 0.0, 10.0, "m",
+        "with a larger standard deviation of the position the state is degraded");
+  field("monitor.degraded_std_rad", mon.degraded_std_rad, 0.0, 10.0, "rad",
+        "with a larger standard deviation of the rotation the state is degraded");
   field("monitor.lost_score", mon.lost_score, 0.0, 1.0, "1",
         "below this score the frame does not count as registered");
+  field("monitor.lost_conflict", mon.lost_conflict, 0.0, 1.0, "1",
+        "with a larger share of the model not where it should be the frame does not count as "
+        "registered");
+  field("monitor.recovered_score", mon.recovered_score, 0.0, 1.0, "1",
+        "after a frame that did not count as registered, score that the next one needs");
   field("monitor.lost_after_frames", mon.lost_after_frames, 1, 1000, "frames",
         "unregistered frames in a row until lost");
   field("monitor.reinitialise_after_s", mon.reinitialise_after_s, 0.0, 3600.0, "s",

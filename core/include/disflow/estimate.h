@@ -89,12 +89,14 @@ struct Estimate {
   std::uint8_t quality = 0;        ///< 0 = not usable, 100 = best.
   std::uint8_t reset_counter = 0;  ///< Bumped whenever the object frame starts anew.
   float score = 0.0F;              ///< Share of observed samples that the model explains, 0..1.
-  std::uint16_t samples = 0;       ///< Surface samples seen in this frame.
-  std::uint16_t inliers = 0;       ///< Samples that supported the pose.
-  std::uint16_t edge_inliers = 0;  ///< Occluding-edge points that supported the pose.
-  std::uint8_t hypotheses = 0;     ///< Starting poses tried.
-  std::uint8_t iterations = 0;     ///< Closed-form steps of the final registration.
-  float rms_m = 0.0F;              ///< Root mean square of the inliers' distances.
+  float conflict = 0.0F;      ///< Share of the model's visible points that are not there, 0..1.
+  float visible = 0.0F;       ///< Share of the model's front that is in view and not hidden.
+  std::uint16_t samples = 0;  ///< Surface samples seen in this frame.
+  std::uint16_t inliers = 0;  ///< Samples that supported the pose.
+  std::uint16_t edge_inliers = 0;        ///< Occluding-edge points that supported the pose.
+  std::uint8_t hypotheses = 0;           ///< Starting poses tried.
+  std::uint8_t iterations = 0;           ///< Closed-form steps of the final registration.
+  float rms_m = 0.0F;                    ///< Root mean square of the inliers' distances.
   float inverse_depth_std_per_m = 0.0F;  ///< Sensor noise used for this frame.
 
   Counters rejected;                                 ///< Of this frame alone.

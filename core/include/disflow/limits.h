@@ -13,7 +13,7 @@ struct Edge {
   static constexpr const char* kName = "Edge";
   static constexpr int kMaxImageWidth = 1280;
   static constexpr int kMaxImageHeight = 720;
-  static constexpr int kMaxRuns = 16384;  ///< Horizontal pixel runs in segmentation without a mask.
+  static constexpr int kMaxRuns = 8192;    ///< Horizontal pixel runs on connected surfaces.
   static constexpr int kMaxBlocks = 8192;  ///< Pixel blocks that cover the object's bounding box.
   static constexpr int kMaxSurfaceSamples = 2048;   ///< M, surface samples per frame.
   static constexpr int kMaxEdgePoints = 192;        ///< Occluding-edge points per frame.
@@ -30,7 +30,7 @@ struct Micro {
   static constexpr const char* kName = "Micro";
   static constexpr int kMaxImageWidth = 240;
   static constexpr int kMaxImageHeight = 180;
-  static constexpr int kMaxRuns = 2048;
+  static constexpr int kMaxRuns = 1024;
   static constexpr int kMaxBlocks = 1536;
   static constexpr int kMaxSurfaceSamples = 512;
   static constexpr int kMaxEdgePoints = 96;
@@ -47,7 +47,7 @@ struct Dense {
   static constexpr const char* kName = "Dense";
   static constexpr int kMaxImageWidth = 1920;
   static constexpr int kMaxImageHeight = 1200;
-  static constexpr int kMaxRuns = 49152;
+  static constexpr int kMaxRuns = 24576;
   static constexpr int kMaxBlocks = 24576;
   static constexpr int kMaxSurfaceSamples = 6144;
   static constexpr int kMaxEdgePoints = 384;

@@ -64,6 +64,7 @@ class Tracker {
       5;  ///< Frames after a start during which training catches up.
   static constexpr std::uint32_t kFramesUntilVelocity = 3;
   static constexpr int kInitialBudgetFactor = 12;
+  static constexpr double kFade_s = 0.5;  ///< Time constant of the velocity of an unseen object.
   static constexpr float kDefinedPoseVariance = 1e-10F;  ///< (0.01 mm)^2 and (0.01 mrad)^2.
   static constexpr float kKnownPoseVariance = 1e-8F;
 
@@ -74,9 +75,13 @@ class Tracker {
   [[nodiscard]] Status Observe(const DepthFrame& frame, Estimate& estimate,
                                StageStopwatch& stopwatch) noexcept;
   void StartObject(const DepthFrame& frame) noexcept;
-  [[nodiscard]] Aligned Register(Estimate& estimate) noexcept;
+  [[nodiscard]] Aligned Register(const DepthFrame& frame, Estimate& estimate) noexcept;
   [[nodiscard]] Status Conclude(const DepthFrame& frame, Status observed, const Aligned& aligned,
                                 Estimate& estimate) noexcept;
+  [[nodiscard]] PoseCameraFromObject Predict(const DepthFrame& frame) const noexcept;
+  [[nodiscard]] bool IsSameObjectFrame(const DepthFrame& frame,
+                                       const PoseObjectFromCamera& T_oc) const noexcept;
+  void Coast(StampNs stamp_ns, Estimate& estimate) const noexcept;
   [[nodiscard]] Mat6 PoseCovariance(const Aligned& aligned) const noexcept;
   void FuseObservations(Estimate& estimate) noexcept;
   void Retrain() noexcept;
@@ -93,8 +98,9 @@ class Tracker {
   PoseObjectFromCamera T_oc_;           ///< Latest registered or predicted pose.
   PoseObjectFromCamera T_oc_previous_;  ///< Of the last registered frame.
 
+  Mat6 registered_covariance_ = Mat6::Zero();  ///< Of the last registered pose.
+
   typename Segmenter<Limits>::Mask object_mask_;
-  typename Segmenter<Limits>::Mask interior_mask_;
   Segmenter<Limits> segmenter_;
   SurfaceSampler<Limits> sampler_;
   typename SurfaceSampler<Limits>::Samples samples_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "disflow/field/known_surface.h"
+#include "disflow/flow/model_agreement.h"
 #include "disflow/geometry/symmetric_solver.h"
 #include "disflow/tracker.h"
 
@@ -27,7 +29,7 @@ Status Tracker<Limits>::Process(const DepthFrame& frame, Estimate& estimate,
   if (status != Status::kOk) return Finish(status, frame, estimate);
 
   // Where the object should be now, if it kept its velocity.
-  if (started_) T_oc_ = twist_filter_.Extrapolate(frame.stamp_ns).Inverse();
+  if (started_) T_oc_ = Predict(frame).Inverse();
 
   // Which pixels are the object, and which surface they show.
   status = Observe(frame, estimate, stopwatch);
@@ -35,7 +37,7 @@ Status Tracker<Limits>::Process(const DepthFrame& frame, Estimate& estimate,
   // V-B to V-D: the pose that puts the observed points onto the zero level of the distance field,
   // then the twist.
   if (started_) {
-    const Aligned aligned = status == Status::kOk ? Register(estimate) : Aligned{};
+    const Aligned aligned = status == Status::kOk ? Register(frame, estimate) : Aligned{};
     stopwatch.Mark(Stage::kRegister);
     status = Conclude(frame, status, aligned, estimate);
     stopwatch.Mark(Stage::kFilter);
@@ -112,17 +114,24 @@ Status Tracker<Limits>::Observe(const DepthFrame& frame, Estimate& estimate,
   samples_.clear();
   edges_.clear();
   ModelPrior prior;
-  if (started_) prior = {true, T_oc_, field_.bounds_min_m(), field_.bounds_max_m()};
-  const Status segmented =
-      segmenter_.Segment(frame, config_.segmenter, prior, object_mask_, estimate.rejected);
+  if (started_) {
+    const bool doubtful = monitor_.Doubts(frame.stamp_ns);
+    // A mask is then the better guide.
+    prior = {!(doubtful && frame.mask.given()), doubtful, T_oc_, field_.bounds_min_m(),
+             field_.bounds_max_m()};
+  }
+  const auto explains = [this](const Vec3& x_c) {
+    return IsNearSurface(field_, T_oc_ * x_c, config_.segmenter.explained_m);
+  };
+  const Status segmented = segmenter_.Segment(frame, config_.segmenter, prior, explains,
+                                              object_mask_, estimate.rejected);
   if (segmented != Status::kOk) return segmented;
-  interior_mask_.Erode(object_mask_, config_.sampler.border_px);
+  const ErodedMask interior(object_mask_, config_.sampler.border_px);
   stopwatch.Mark(Stage::kSegment);
 
   const DepthReader depth(frame.depth, config_.segmenter.min_range_m,
                           config_.segmenter.max_range_m);
-  sampler_.Sample(depth, frame.camera, interior_mask_, config_.sampler, samples_,
-                  estimate.rejected);
+  sampler_.Sample(depth, frame.camera, interior, config_.sampler, samples_, estimate.rejected);
   EdgeSampler<Limits>::Sample(depth, frame.camera, object_mask_, sampler_, config_.sampler, edges_);
   estimate.samples = static_cast<std::uint16_t>(samples_.size());
   estimate.inverse_depth_std_per_m = sampler_.noise_std();
@@ -142,17 +151,23 @@ void Tracker<Limits>::StartObject(const DepthFrame& frame) noexcept {
   // The first pose is exact by definition of the object frame.
   twist_filter_.Start(config_.twist, frame.stamp_ns, T_oc_.Inverse(),
                       kDefinedPoseVariance * Mat6::Identity());
+  registered_covariance_ = kDefinedPoseVariance * Mat6::Identity();
   monitor_.Start(config_.monitor, frame.stamp_ns);
   frame_index_ = 0;
   started_ = true;
 }
 
 template <class Limits>
-typename Tracker<Limits>::Aligned Tracker<Limits>::Register(Estimate& estimate) noexcept {
+typename Tracker<Limits>::Aligned Tracker<Limits>::Register(const DepthFrame& frame,
+                                                            Estimate& estimate) noexcept {
+  // Starting poses are compared on a part of the samples: they are many and need not be precise.
+  const EveryNth some(samples_, PoseSearch<Limits>::kPoints);
+  registration_.SetObservations(some, edges_);
+  const int search = monitor_.Doubts(frame.stamp_ns) ? monitor_.missed() + 1 : 0;
+  const auto start = PoseSearch<Limits>::Find(
+      registration_, field_, model_edges_, config_.registration,
+      {T_oc_, T_oc_previous_, frame_index_ >= kFramesUntilVelocity, search});
   registration_.SetObservations(samples_, edges_);
-  const auto start =
-      PoseSearch<Limits>::Find(registration_, field_, model_edges_, config_.registration, T_oc_,
-                               T_oc_previous_, frame_index_ >= kFramesUntilVelocity);
   // Where the prediction was not believed it must not pull either.
   const PoseObjectFromCamera& T_expected = start.tried > 1 ? start.T_oc : T_oc_;
   Aligned aligned = registration_.Align(field_, model_edges_, config_.registration, start.T_oc,
@@ -174,37 +189,91 @@ template <class Limits>
 Status Tracker<Limits>::Conclude(const DepthFrame& frame, Status observed, const Aligned& aligned,
                                  Estimate& estimate) noexcept {
   TrackingMonitor::Evidence evidence;
-  Mat6 covariance = Mat6::Zero();
+  Mat6 covariance = Mat6::Zero();  // of this registration alone
+  Mat6 reported = Mat6::Zero();    // with the drift of the model since its first view
   if (aligned.solved) {
     covariance = PoseCovariance(aligned);
+    reported =
+        (1.0F + config_.registration.drift_inflation * (1.0F + aligned.generation)) * covariance;
+    const DepthReader depth(frame.depth, config_.segmenter.min_range_m,
+                            config_.segmenter.max_range_m);
+    const ModelAgreement agreement = Compare(field_, aligned.T_oc, frame.camera, depth);
+    estimate.conflict = agreement.conflict();
+    estimate.visible = agreement.visible();
     evidence = {true,
                 estimate.score,
+                agreement.conflict(),
                 aligned.inliers,
                 registration_.size(),
-                std::sqrt(covariance.diagonal().head<3>().maxCoeff()),
-                std::sqrt(covariance.diagonal().tail<3>().maxCoeff())};
+                std::sqrt(reported.diagonal().head<3>().maxCoeff()),
+                std::sqrt(reported.diagonal().tail<3>().maxCoeff())};
   }
-  const bool accepted = observed == Status::kOk && monitor_.Accepts(evidence);
-  twist_filter_.Predict(frame.stamp_ns);
+  const bool near = !monitor_.Doubts(frame.stamp_ns) || IsSameObjectFrame(frame, aligned.T_oc);
+  const bool accepted =
+      observed == Status::kOk && near && monitor_.Accepts(evidence, frame.stamp_ns);
+  evidence.registered = accepted;
+  monitor_.Update(evidence, frame.stamp_ns);
   if (accepted) {
     T_oc_ = aligned.T_oc;
     T_oc_previous_ = T_oc_;
+    // The twist filter sees differences between frames, in which the drift of the model cancels.
+    twist_filter_.Predict(frame.stamp_ns);
     twist_filter_.Update(T_oc_.Inverse(), covariance);
-  } else {
-    T_oc_ = twist_filter_.T_co().Inverse();
-    evidence.registered = false;
-  }
-  monitor_.Update(evidence, frame.stamp_ns);
-  // The twist filter sees differences between frames, in which the drift of the model cancels; the
-  // pose does not.
-  estimate.pose_covariance = twist_filter_.pose_covariance();
-  if (accepted) {
-    estimate.pose_covariance =
-        (1.0F + config_.registration.drift_inflation * (1.0F + aligned.generation)) * covariance;
     field_.SetGeneration(aligned.generation + 1.0F);
+    registered_covariance_ = reported;
+    estimate.pose_covariance = reported;
+    estimate.twist_covariance = twist_filter_.twist_covariance();
+  } else {
+    Coast(frame.stamp_ns, estimate);
   }
   if (observed != Status::kOk) return observed;
   return accepted ? Status::kOk : Status::kRegistrationFailed;
+}
+
+/// The pose at a constant velocity; at one that fades while the object is not seen, since what
+/// moves by hand does not keep its velocity for long. An object that left the view is expected back
+/// where it left.
+template <class Limits>
+PoseCameraFromObject Tracker<Limits>::Predict(const DepthFrame& frame) const noexcept {
+  if (!monitor_.Doubts(frame.stamp_ns)) return twist_filter_.Extrapolate(frame.stamp_ns);
+  const double gap_s = static_cast<double>(frame.stamp_ns - twist_filter_.stamp_ns()) * 1e-9;
+  const double moved_s = kFade_s * (1.0 - std::exp(-gap_s / kFade_s));
+  const PoseCameraFromObject T_co =
+      twist_filter_.Extrapolate(twist_filter_.stamp_ns() + static_cast<StampNs>(moved_s * 1e9));
+  const auto in_view = [&frame](const Vec3& x_c) {
+    if (!(x_c.z() > 0.0F)) return false;
+    const Vec2 px = frame.camera.Project(x_c);
+    return px.x() >= 0.0F && px.y() >= 0.0F && px.x() < static_cast<float>(frame.depth.width_px) &&
+           px.y() < static_cast<float>(frame.depth.height_px);
+  };
+  if (in_view(T_co.translation())) return T_co;
+  return {T_co.rotation(), T_oc_.Inverse().translation()};
+}
+
+/// Whether a pose that was searched for is that of the same object frame. Many things look alike
+/// from opposite sides: neither may the pose be turned far from the predicted one, nor may the
+/// object have had the time to turn over since it was last seen.
+template <class Limits>
+bool Tracker<Limits>::IsSameObjectFrame(const DepthFrame& frame,
+                                        const PoseObjectFromCamera& T_oc) const noexcept {
+  constexpr float kReach_rad = 0.7F;
+  constexpr float kFarthestTurn_rad = 1.1F;
+  const auto gap_s =
+      static_cast<float>(static_cast<double>(frame.stamp_ns - twist_filter_.stamp_ns()) * 1e-9);
+  const Vec3 off = LogSo3(Mat3(T_oc.rotation() * T_oc_.rotation().transpose()));
+  return off.norm() <= kReach_rad &&
+         gap_s * twist_filter_.twist().angular_rps.norm() <= kFarthestTurn_rad;
+}
+
+/// What is known of the motion of an object that is not seen. The filter itself stays at the last
+/// registered frame: an acceleration measured there would carry a lost object away.
+template <class Limits>
+void Tracker<Limits>::Coast(StampNs stamp_ns, Estimate& estimate) const noexcept {
+  TwistFilter coasting = twist_filter_;
+  coasting.Predict(stamp_ns);
+  estimate.twist_covariance = coasting.twist_covariance();
+  // What it was then and what has been added since.
+  estimate.pose_covariance = registered_covariance_ + coasting.pose_covariance();
 }
 
 /// Covariance of (origin's position, rotation) in camera axes from the information about the
@@ -267,9 +336,10 @@ Status Tracker<Limits>::Finish(Status status, const DepthFrame& frame,
   if (started_) {
     estimate.T_co = T_oc_.Inverse();
     estimate.twist = twist_filter_.twist();
-    estimate.twist_covariance = twist_filter_.twist_covariance();
-    if (estimate.pose_covariance.isZero(0.0F))
+    if (estimate.pose_covariance.isZero(0.0F)) {
       estimate.pose_covariance = twist_filter_.pose_covariance();
+      estimate.twist_covariance = twist_filter_.twist_covariance();
+    }
     estimate.state = monitor_.state();
     estimate.quality = monitor_.quality();
     if (frame.has_T_wc) {

@@ -54,7 +54,7 @@ void DepthRenderer::Clear() {
   std::fill(labels_.begin(), labels_.end(), std::uint32_t{0});
 }
 
-void DepthRenderer::DrawPlane(const Plane& plane) {
+void DepthRenderer::DrawPlane(const Plane& plane, std::uint32_t label) {
   const Vec3d n = plane.normal / plane.offset_m;  // n . ray = 1/z
   std::size_t pixel = 0;
   for (int v = 0; v < height_; ++v) {
@@ -64,7 +64,7 @@ void DepthRenderer::DrawPlane(const Plane& plane) {
       const float inverse_depth = start + step * static_cast<float>(u);
       if (inverse_depth <= inverse_depth_[pixel]) continue;
       inverse_depth_[pixel] = inverse_depth;
-      labels_[pixel] = 0;
+      labels_[pixel] = label;
     }
   }
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "flying_motion.h"
+#include "leaving_motion.h"
 #include "smooth_motion.h"
 #include "turn_motion.h"
 
@@ -53,6 +54,8 @@ std::unique_ptr<const ObjectMotion> MakeObjectMotion(const MotionSettings& setti
       return std::make_unique<SmoothMotion>(settings, MotionPeaks{0.6, 270.0 * kRadPerDeg});
     case MotionKind::kRotate360:
       return std::make_unique<TurnMotion>(settings);
+    case MotionKind::kLeaving:
+      return std::make_unique<LeavingMotion>(settings);
     case MotionKind::kFlying:
       return std::make_unique<FlyingMotion>(settings, MotionPeaks{1.2, 500.0 * kRadPerDeg});
   }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -13,7 +14,7 @@
 namespace disflow::host {
 namespace {
 
-enum Label : std::uint32_t { kBackground = 0, kObject = 1, kArm = 2 };
+enum Label : std::uint32_t { kBackground = 0, kObject = 1, kOccluder = 2 };
 
 constexpr double kGapBehindObject_m = 0.35;
 
@@ -78,6 +79,8 @@ Simulation::Simulation(const SimulationOptions& options, TriangleMesh mesh)
     camera_motion_.emplace(workspace_.centre_m.z(), options.seed);
   }
   if (options.occluder == OccluderKind::kArm) arm_.emplace(radius_m_, options.seed);
+  if (options.occluder == OccluderKind::kHand)
+    hand_.emplace(mesh_, TruthAt(0).object.pose.rotation());
 }
 
 FrameTruth Simulation::TruthAt(int index) const {
@@ -104,10 +107,35 @@ void Simulation::DrawScene(int index, const FrameTruth& truth) {
     renderer_.DrawPlane({Vec3d(R_wc.transpose() * plane.normal),
                          plane.offset_m - plane.normal.dot(truth.camera.pose.translation())});
   }
+  const double time_s = index / options_.fps;
+  if (options_.support == SupportKind::kTable) renderer_.DrawPlane(TableAt(time_s, truth));
   renderer_.DrawMesh(mesh_, truth.object.pose, kObject);
-  if (arm_) {
-    renderer_.DrawMesh(arm_->mesh(), arm_->PoseAt(index / options_.fps, truth.object.pose), kArm);
+  DrawOccluder(time_s, truth);
+}
+
+void Simulation::DrawOccluder(double time_s, const FrameTruth& truth) {
+  if (arm_) renderer_.DrawMesh(arm_->mesh(), arm_->PoseAt(time_s, truth.object.pose), kOccluder);
+  if (hand_) renderer_.DrawMesh(hand_->mesh(), hand_->PoseAt(time_s, truth.object.pose), kOccluder);
+  constexpr double kCurtainDown_s = 1.0;
+  constexpr double kCurtainUp_s = 1.5;
+  if (options_.occluder == OccluderKind::kCurtain && time_s >= kCurtainDown_s &&
+      time_s < kCurtainUp_s) {
+    constexpr double kCurtain_m = 0.3;
+    renderer_.DrawPlane({Vec3d::UnitZ(), kCurtain_m}, kOccluder);
   }
+}
+
+/// Below the object's lowest point, whatever its attitude; camera frame.
+Plane Simulation::TableAt(double time_s, const FrameTruth& truth) const {
+  constexpr double kLiftOff_s = 1.0;
+  constexpr double kLift_mps = 0.3;
+  // Level with the object's start in the world.
+  const Vec3d up = truth.camera.pose.rotation().transpose() *
+                   object_motion_->At(0.0).pose.rotation() * Vec3d::UnitZ();
+  double lowest_m = std::numeric_limits<double>::max();
+  for (const Vec3d& vertex : mesh_.vertices)
+    lowest_m = std::min(lowest_m, up.dot(truth.object.pose * vertex));
+  return {up, lowest_m - kLift_mps * std::max(0.0, time_s - kLiftOff_s)};
 }
 
 void Simulation::Render(int index, DepthFrame& frame) {

@@ -18,12 +18,17 @@ constexpr std::array kMotions{Choice<MotionKind>{"static", MotionKind::kStatic},
                               Choice<MotionKind>{"moderate", MotionKind::kModerate},
                               Choice<MotionKind>{"fast", MotionKind::kFast},
                               Choice<MotionKind>{"rotate360", MotionKind::kRotate360},
-                              Choice<MotionKind>{"flying", MotionKind::kFlying}};
+                              Choice<MotionKind>{"flying", MotionKind::kFlying},
+                              Choice<MotionKind>{"leaving", MotionKind::kLeaving}};
 constexpr std::array kNoises{Choice<NoiseKind>{"clean", NoiseKind::kClean},
                              Choice<NoiseKind>{"d415", NoiseKind::kD415},
                              Choice<NoiseKind>{"kinect", NoiseKind::kKinect}};
 constexpr std::array kOccluders{Choice<OccluderKind>{"none", OccluderKind::kNone},
-                                Choice<OccluderKind>{"arm", OccluderKind::kArm}};
+                                Choice<OccluderKind>{"arm", OccluderKind::kArm},
+                                Choice<OccluderKind>{"curtain", OccluderKind::kCurtain},
+                                Choice<OccluderKind>{"hand", OccluderKind::kHand}};
+constexpr std::array kSupports{Choice<SupportKind>{"none", SupportKind::kNone},
+                               Choice<SupportKind>{"table", SupportKind::kTable}};
 constexpr std::array kCameras{Choice<CameraKind>{"static", CameraKind::kStatic},
                               Choice<CameraKind>{"moving", CameraKind::kMoving}};
 constexpr std::array kMasks{Choice<MaskKind>{"gt", MaskKind::kGt},
@@ -91,6 +96,7 @@ constexpr std::array kOptions{ChoiceOption<&Options::motion, kMotions>("motion")
                               NumberOption<&Options::height_px, kSide>("height"),
                               NumberOption<&Options::focal_px, kFocal>("focal"),
                               ChoiceOption<&Options::occluder, kOccluders>("occluder"),
+                              ChoiceOption<&Options::support, kSupports>("support"),
                               NumberOption<&Options::drop, kDrop>("drop"),
                               ChoiceOption<&Options::camera, kCameras>("camera"),
                               ChoiceOption<&Options::mask, kMasks>("mask"),

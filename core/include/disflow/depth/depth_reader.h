@@ -34,6 +34,27 @@ class DepthReader {
     return u < 0 || v < 0 || u >= view_.width_px || v >= view_.height_px ? 0.0F : At(u, v);
   }
 
+  /// At() of the pixels [u_begin, u_end) of row v, into depth_m[0], depth_m[1], ...
+  void ReadRow(int v, int u_begin, int u_end, float* depth_m) const noexcept {
+    const int count = u_end - u_begin;
+    const std::byte* pixels =
+        view_.row(v) + static_cast<std::ptrdiff_t>(u_begin) * view_.bytes_per_pixel();
+    if (view_.format == DepthFormat::kUint16) {
+      for (int i = 0; i < count; ++i) {
+        std::uint16_t raw = 0;
+        std::memcpy(&raw, pixels + 2 * i, sizeof raw);
+        depth_m[i] = static_cast<float>(raw) * view_.unit_m;
+      }
+    } else {
+      std::memcpy(depth_m, pixels, sizeof(float) * static_cast<std::size_t>(count));
+    }
+    // NaN fails all comparisons. Branch-free, so that compilers use vector instructions.
+    for (int i = 0; i < count; ++i) {
+      const float value = depth_m[i];
+      depth_m[i] = (value >= min_m_) & (value <= max_m_) & (value > 0.0F) ? value : 0.0F;
+    }
+  }
+
   [[nodiscard]] int width_px() const noexcept { return view_.width_px; }
   [[nodiscard]] int height_px() const noexcept { return view_.height_px; }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <cstring>
 
 namespace disflow {
 
@@ -20,92 +21,45 @@ struct PixelBox {
   [[nodiscard]] int height() const noexcept { return v_max - v_min; }
 };
 
-/// One bit per pixel, with the box that holds all set bits. Word-wise, so that erosion costs a few
-/// operations per 64 pixels.
-template <int kMaxWidth, int kMaxHeight>
-class PixelMask {
- public:
+/// One bit per pixel of an image row.
+template <int kMaxWidth>
+struct PixelRow {
   using Word = std::uint64_t;
   static constexpr int kBits = 64;
-  static constexpr int kWordsPerRow = (kMaxWidth + kBits - 1) / kBits;
-  using Row = std::array<Word, static_cast<std::size_t>(kWordsPerRow)>;
+  static constexpr int kWords = (kMaxWidth + kBits - 1) / kBits;
+  std::array<Word, static_cast<std::size_t>(kWords)> words;
 
-  /// Clears the mask for an image of the given size (within the capacity; checked by CheckFrame()).
-  void Start(int width_px, int height_px) noexcept {
-    width_px_ = width_px;
-    height_px_ = height_px;
-    box_ = {};
-    count_ = 0;
-    for (int v = 0; v < height_px; ++v) row(v).fill(0);
+  [[nodiscard]] Word& operator[](int w) noexcept { return words[static_cast<std::size_t>(w)]; }
+  [[nodiscard]] Word operator[](int w) const noexcept { return words[static_cast<std::size_t>(w)]; }
+  void Clear() noexcept { words.fill(0); }
+
+  /// Marks the pixels [u_begin, u_end).
+  void SetRun(int u_begin, int u_end) noexcept {
+    ForEachWord(u_begin, u_end, [this](int w, Word bits) { (*this)[w] |= bits; });
   }
-
-  /// Marks the pixels [u_begin, u_end) of row v.
-  void SetRun(int v, int u_begin, int u_end) noexcept {
-    ForEachWord(u_begin, u_end, [this, v](std::size_t word, Word bits) { row(v)[word] |= bits; });
+  void ClearRun(int u_begin, int u_end) noexcept {
+    ForEachWord(u_begin, u_end, [this](int w, Word bits) { (*this)[w] &= ~bits; });
   }
-  void ClearRun(int v, int u_begin, int u_end) noexcept {
-    ForEachWord(u_begin, u_end, [this, v](std::size_t word, Word bits) { row(v)[word] &= ~bits; });
+  /// Marked pixels in [u_begin, u_end).
+  [[nodiscard]] int CountRun(int u_begin, int u_end) const noexcept {
+    int count = 0;
+    ForEachWord(u_begin, u_end,
+                [&](int w, Word bits) { count += std::popcount((*this)[w] & bits); });
+    return count;
   }
+  [[nodiscard]] bool Test(int u) const noexcept { return ((*this)[u / kBits] >> (u % kBits)) & 1U; }
 
-  /// To be called after the last SetRun() or ClearRun(): finds the box and the number of pixels.
-  void Finish() noexcept {
-    box_ = {width_px_, height_px_, 0, 0};
-    count_ = 0;
-    for (int v = 0; v < height_px_; ++v) {
-      int first = -1;
-      int last = -1;
-      for (int w = 0; w < kWordsPerRow; ++w) {
-        const Word bits = row(v)[static_cast<std::size_t>(w)];
-        if (bits == 0) continue;
-        count_ += std::popcount(bits);
-        if (first < 0) first = w * kBits + std::countr_zero(bits);
-        last = w * kBits + kBits - 1 - std::countl_zero(bits);
-      }
-      if (first < 0) continue;
-      box_.u_min = std::min(box_.u_min, first);
-      box_.u_max = std::max(box_.u_max, last + 1);
-      box_.v_min = std::min(box_.v_min, v);
-      box_.v_max = v + 1;
-    }
-    if (count_ == 0) box_ = {};
-  }
-
-  /// Makes this the erosion of `source` by a square of (2 radius + 1) pixels; the image border
-  /// counts as outside.
-  void Erode(const PixelMask& source, int radius_px) noexcept {
-    Start(source.width_px_, source.height_px_);
-    const PixelBox box = source.box_;
-    for (int v = box.v_min + radius_px; v < box.v_max - radius_px; ++v) {
-      Row bits = source.row(v);
-      for (int dv = -radius_px; dv <= radius_px; ++dv) {
-        for (int w = 0; w < kWordsPerRow; ++w) {
-          bits[static_cast<std::size_t>(w)] &= source.row(v + dv)[static_cast<std::size_t>(w)];
-        }
-      }
-      for (int step = 0; step < radius_px; ++step) bits = ErodeRow(bits);
-      row(v) = bits;
-    }
-    Finish();
-  }
-
-  [[nodiscard]] bool Test(int u, int v) const noexcept {
-    if (u < 0 || v < 0 || u >= width_px_ || v >= height_px_) return false;
-    return (row(v)[static_cast<std::size_t>(u / kBits)] >> (u % kBits)) & 1U;
-  }
-
-  [[nodiscard]] const PixelBox& box() const noexcept { return box_; }
-  [[nodiscard]] int count() const noexcept { return count_; }
-  [[nodiscard]] int width_px() const noexcept { return width_px_; }
-  [[nodiscard]] int height_px() const noexcept { return height_px_; }
-  [[nodiscard]] const Row& row(int v) const noexcept { return rows_[static_cast<std::size_t>(v)]; }
-
-  /// Calls visit(u) for every set pixel of row v, from left to right.
-  template <class Visitor>
-  void ForEachInRow(int v, Visitor&& visit) const noexcept {
-    for (int w = box_.u_min / kBits; w * kBits < box_.u_max; ++w) {
-      for (Word bits = row(v)[static_cast<std::size_t>(w)]; bits != 0; bits &= bits - 1) {
-        visit(w * kBits + std::countr_zero(bits));
-      }
+  /// Words [w_begin, w_end) of every pixel's own, its left and its right neighbour's bit, combined
+  /// by `Combine`; bits outside of those words count as 0.
+  template <class Combine>
+  void Neighbours(int w_begin, int w_end, Combine&& combine) noexcept {
+    Word before = 0;
+    for (int w = w_begin; w < w_end; ++w) {
+      const Word own = (*this)[w];
+      const Word after = w + 1 < w_end ? (*this)[w + 1] : 0;
+      (*this)[w] =
+          combine(own, (own << 1) | (before >> (kBits - 1)), (own >> 1) | (after << (kBits - 1)));
+      before = own;
     }
   }
 
@@ -117,22 +71,146 @@ class PixelMask {
       const int first = u % kBits;
       const int last = std::min(kBits, first + u_end - u);
       const Word upto = last == kBits ? ~Word{0} : (Word{1} << last) - 1;
-      visit(static_cast<std::size_t>(u / kBits), upto & (~Word{0} << first));
+      visit(u / kBits, upto & (~Word{0} << first));
       u += last - first;
     }
   }
+};
+
+/// One bit per pixel, with the box that holds all set bits. Word-wise, so that morphology costs a
+/// few operations per 64 pixels.
+template <int kMaxWidth, int kMaxHeight>
+class PixelMask {
+ public:
+  using Row = PixelRow<kMaxWidth>;
+  using Word = typename Row::Word;
+  static constexpr int kBits = Row::kBits;
+
+  /// Clears the mask for an image of the given size (within the capacity; checked by CheckFrame()).
+  void Start(int width_px, int height_px) noexcept {
+    width_px_ = width_px;
+    height_px_ = height_px;
+    box_ = {};
+    count_ = 0;
+    for (int v = 0; v < height_px; ++v) row(v).Clear();
+  }
 
   [[nodiscard]] Row& row(int v) noexcept { return rows_[static_cast<std::size_t>(v)]; }
+  [[nodiscard]] const Row& row(int v) const noexcept { return rows_[static_cast<std::size_t>(v)]; }
 
-  [[nodiscard]] static Row ErodeRow(const Row& bits) noexcept {
-    Row out;
-    for (int w = 0; w < kWordsPerRow; ++w) {
-      const auto i = static_cast<std::size_t>(w);
-      const Word left = (bits[i] << 1) | (w > 0 ? bits[i - 1] >> (kBits - 1) : 0);
-      const Word right = (bits[i] >> 1) | (w + 1 < kWordsPerRow ? bits[i + 1] << (kBits - 1) : 0);
-      out[i] = bits[i] & left & right;
+  /// Marks the pixels of [u_begin, u_end) in row v that are not 0 in a row of bytes.
+  void SetFromBytes(int v, int u_begin, int u_end, const std::uint8_t* bytes) noexcept {
+    int u = u_begin;
+    for (; u < u_end && u % kBits != 0; ++u) SetBit(v, u, bytes[u] != 0);
+    for (; u + kBits <= u_end; u += kBits) {
+      Word bits = 0;
+      for (int i = 0; i < kBits; i += 8) bits |= NonZeroBytes(bytes + u + i) << i;
+      row(v)[u / kBits] = bits;
     }
-    return out;
+    for (; u < u_end; ++u) SetBit(v, u, bytes[u] != 0);
+  }
+
+  /// To be called after the last change of a row: finds the box and the number of pixels.
+  void Finish() noexcept {
+    box_ = {width_px_, height_px_, 0, 0};
+    count_ = 0;
+    const int words = (width_px_ + kBits - 1) / kBits;
+    for (int v = 0; v < height_px_; ++v) AddRow(row(v), v, 0, words, box_, count_);
+    if (count_ == 0) box_ = {};
+  }
+
+  /// Fills gaps and notches of up to 2 radius pixels: dilation, then erosion by a square.
+  /// @pre Finish() was called; to be called again afterwards.
+  template <int kRadius>
+  void Close() noexcept {
+    constexpr int kRing = 2 * kRadius + 1;
+    std::array<Row, static_cast<std::size_t>(kRing)> ring;  // dilated rows v - radius to v + radius
+    const auto slot = [&ring](int v) -> Row& {
+      return ring[static_cast<std::size_t>((v + kRing) % kRing)];
+    };
+    const int w_begin = std::max(box_.u_min - kRadius, 0) / kBits;
+    const int w_end = (std::min(box_.u_max + kRadius, width_px_) + kBits - 1) / kBits;
+    const auto dilate = [&](int v) {
+      Row& out = slot(v);
+      out.Clear();
+      for (int r = std::max(v - kRadius, box_.v_min); r <= std::min(v + kRadius, box_.v_max - 1);
+           ++r) {
+        for (int w = w_begin; w < w_end; ++w) out[w] |= row(r)[w];
+      }
+      for (int i = 0; i < kRadius; ++i)
+        out.Neighbours(w_begin, w_end, [](Word own, Word a, Word b) { return own | a | b; });
+    };
+    for (int v = box_.v_min - kRadius; v < box_.v_min + kRadius; ++v) dilate(v);
+    for (int v = box_.v_min; v < box_.v_max; ++v) {
+      dilate(v + kRadius);
+      Row closed = slot(v);
+      for (int dv = -kRadius; dv <= kRadius; ++dv) {
+        for (int w = w_begin; w < w_end; ++w) closed[w] &= slot(v + dv)[w];
+      }
+      for (int i = 0; i < kRadius; ++i)
+        closed.Neighbours(w_begin, w_end, [](Word own, Word a, Word b) { return own & a & b; });
+      for (int w = w_begin; w < w_end; ++w) row(v)[w] |= closed[w];
+    }
+  }
+
+  [[nodiscard]] bool Test(int u, int v) const noexcept {
+    if (u < 0 || v < 0 || u >= width_px_ || v >= height_px_) return false;
+    return row(v).Test(u);
+  }
+
+  [[nodiscard]] const PixelBox& box() const noexcept { return box_; }
+  [[nodiscard]] int count() const noexcept { return count_; }
+  [[nodiscard]] int width_px() const noexcept { return width_px_; }
+  [[nodiscard]] int height_px() const noexcept { return height_px_; }
+
+  /// Calls visit(u) for every set pixel of row v, from left to right.
+  template <class Visitor>
+  void ForEachInRow(int v, Visitor&& visit) const noexcept {
+    for (int w = box_.u_min / kBits; w * kBits < box_.u_max; ++w) VisitBits(row(v)[w], w, visit);
+  }
+
+  /// visit(u) for every bit that is set in word w of a row.
+  template <class Visitor>
+  static void VisitBits(Word bits, int w, Visitor&& visit) noexcept {
+    for (; bits != 0; bits &= bits - 1) visit(w * kBits + std::countr_zero(bits));
+  }
+
+  /// Extends a box and a count by the pixels of a row.
+  static void AddRow(const Row& bits, int v, int w_begin, int w_end, PixelBox& box,
+                     int& count) noexcept {
+    int first = -1;
+    int last = -1;
+    for (int w = w_begin; w < w_end; ++w) {
+      if (bits[w] == 0) continue;
+      count += std::popcount(bits[w]);
+      if (first < 0) first = w * kBits + std::countr_zero(bits[w]);
+      last = w * kBits + kBits - 1 - std::countl_zero(bits[w]);
+    }
+    if (first < 0) return;
+    box.u_min = std::min(box.u_min, first);
+    box.u_max = std::max(box.u_max, last + 1);
+    box.v_min = std::min(box.v_min, v);
+    box.v_max = v + 1;
+  }
+
+ private:
+  void SetBit(int v, int u, bool on) noexcept {
+    if (on) row(v)[u / kBits] |= Word{1} << (u % kBits);
+  }
+
+  /// Eight bytes as eight bits, 1 where a byte is not 0.
+  [[nodiscard]] static Word NonZeroBytes(const std::uint8_t* bytes) noexcept {
+    if constexpr (std::endian::native == std::endian::little) {
+      constexpr Word kLow7 = 0x7F7F7F7F7F7F7F7FULL;
+      Word word = 0;
+      std::memcpy(&word, bytes, sizeof word);
+      const Word top_bits = (((word & kLow7) + kLow7) | word) & ~kLow7;
+      return ((top_bits >> 7) * 0x0102040810204080ULL) >> 56;
+    } else {
+      Word bits = 0;
+      for (int i = 0; i < 8; ++i) bits |= Word{bytes[i] != 0} << i;
+      return bits;
+    }
   }
 
   std::array<Row, static_cast<std::size_t>(kMaxHeight)> rows_;
@@ -140,6 +218,55 @@ class PixelMask {
   int count_ = 0;
   int width_px_ = 0;
   int height_px_ = 0;
+};
+
+/// The erosion of a mask by a square of (2 radius + 1) pixels, computed row by row when it is read:
+/// no second mask is stored. The image border counts as outside.
+template <class Mask>
+class ErodedMask {
+ public:
+  /// @param source Must not change while this is used.
+  ErodedMask(const Mask& source, int radius_px) noexcept
+      : source_(source),
+        radius_px_(radius_px),
+        w_begin_(source.box().u_min / Mask::kBits),
+        w_end_((source.box().u_max + Mask::kBits - 1) / Mask::kBits) {
+    box_ = {source.width_px(), source.height_px(), 0, 0};
+    for (int v = source.box().v_min + radius_px; v < source.box().v_max - radius_px; ++v)
+      Mask::AddRow(Row(v), v, w_begin_, w_end_, box_, count_);
+    if (count_ == 0) box_ = {};
+  }
+
+  [[nodiscard]] const PixelBox& box() const noexcept { return box_; }
+  [[nodiscard]] int count() const noexcept { return count_; }
+
+  /// Calls visit(u) for every set pixel of row v (inside of box()), from left to right.
+  template <class Visitor>
+  void ForEachInRow(int v, Visitor&& visit) const noexcept {
+    const typename Mask::Row bits = Row(v);
+    for (int w = w_begin_; w < w_end_; ++w) Mask::VisitBits(bits[w], w, visit);
+  }
+
+ private:
+  [[nodiscard]] typename Mask::Row Row(int v) const noexcept {
+    using Word = typename Mask::Word;
+    typename Mask::Row bits;
+    for (int w = w_begin_; w < w_end_; ++w) bits[w] = source_.row(v)[w];
+    for (int dv = 1; dv <= radius_px_; ++dv) {
+      for (int w = w_begin_; w < w_end_; ++w)
+        bits[w] &= source_.row(v - dv)[w] & source_.row(v + dv)[w];
+    }
+    for (int step = 0; step < radius_px_; ++step)
+      bits.Neighbours(w_begin_, w_end_, [](Word own, Word a, Word b) { return own & a & b; });
+    return bits;
+  }
+
+  const Mask& source_;
+  int radius_px_;
+  int w_begin_;
+  int w_end_;
+  PixelBox box_{};
+  int count_ = 0;
 };
 
 }  // namespace disflow

@@ -8,6 +8,7 @@
 
 #include "disflow/depth/depth_reader.h"
 #include "disflow/depth/pixel_mask.h"
+#include "disflow/memory/fixed_vector.h"
 
 namespace disflow {
 
@@ -16,101 +17,109 @@ struct PixelRun {
   std::int16_t v = 0;
   std::int16_t u_begin = 0;
   std::int16_t u_end = 0;
-  std::int32_t parent = 0;  ///< Union-find link; a root links to itself.
-  std::int32_t pixels = 0;  ///< Of the whole component, valid at its root.
-  std::int32_t votes = 0;   ///< See Vote(), valid at the root.
+  std::uint16_t parent = 0;  ///< Union-find link; a root links to itself.
+  std::uint16_t pixels = 0;  ///< At a root: of the component, saturating; then its number.
+
+  [[nodiscard]] int length() const noexcept { return u_end - u_begin; }
 };
 
 /// Connected components of a depth image over depth continuity, by union-find on horizontal runs.
-/// One pass over the image, memory for kMaxRuns runs; rows that no longer fit are left out and
-/// counted.
-template <int kMaxRuns>
+/// One pass over the image, memory for kMaxRuns runs and two image rows; rows that no longer fit
+/// are left out and counted. The kMaxComponents largest components are remembered.
+template <int kMaxRuns, int kMaxWidth>
 class PixelRuns {
+  static_assert(kMaxRuns <= 65535);
+
  public:
-  /// @param accept accept(u, v, depth_m): whether the pixel may belong to the object at all.
-  template <class Accept>
-  void Build(const DepthReader& depth, const PixelBox& box, float jump_ratio,
-             Accept&& accept) noexcept {
+  static constexpr int kMaxComponents = 64;
+  static constexpr int kNoComponent = 65535;
+
+  struct Component {
+    int first_run = 0;  ///< Topmost, leftmost run.
+    int pixels = 0;
+  };
+
+  /// @param gate gate(v, u_begin, u_end, depth_m): sets to 0 the depths of a row's pixels that
+  /// cannot belong to the object.
+  /// @param fewest_pixels Smaller components are not remembered.
+  template <class Gate>
+  void Build(const DepthReader& depth, const PixelBox& box, float jump_ratio, int fewest_pixels,
+             Gate&& gate) noexcept {
     count_ = 0;
     dropped_ = 0;
+    components_.clear();
     int above_begin = 0;
     int above_end = 0;
     for (int v = box.v_min; v < box.v_max; ++v) {
+      current_ = 1 - current_;
+      depth.ReadRow(v, box.u_min, box.u_max, row_m().data());
+      gate(v, box.u_min, box.u_max, row_m().data());
       const int row_begin = count_;
-      BuildRow(depth, box, v, jump_ratio, accept);
-      ConnectRows(depth, jump_ratio, above_begin, above_end, row_begin, count_);
+      BuildRow(box, v, jump_ratio);
+      ConnectRows(box.u_min, jump_ratio, above_begin, above_end, row_begin, count_);
       above_begin = row_begin;
       above_end = count_;
     }
-    CountPixels();
+    Flatten();
+    RememberLargest(fewest_pixels);
   }
 
   [[nodiscard]] int dropped() const noexcept { return dropped_; }
+  [[nodiscard]] int components() const noexcept { return components_.size(); }
+  [[nodiscard]] const Component& component(int i) const noexcept { return components_[i]; }
+  [[nodiscard]] const PixelRun& first_run(int component) const noexcept {
+    return run(components_[component].first_run);
+  }
 
-  /// Root of the component that covers a pixel, or -1.
-  [[nodiscard]] int ComponentAt(int u, int v) noexcept {
+  /// The remembered component that covers a pixel, or kNoComponent.
+  [[nodiscard]] int ComponentAt(int u, int v) const noexcept {
     for (int i = 0; i < count_; ++i) {
       const PixelRun& r = run(i);
-      if (r.v == v && r.u_begin <= u && u < r.u_end) return Root(i);
+      if (r.v == v && r.u_begin <= u && u < r.u_end) return run(r.parent).pixels;
     }
-    return -1;
+    return kNoComponent;
   }
 
-  /// visit(root, first run of the component, pixels)
+  /// visit(number of the run's component or kNoComponent, run), row by row, from left to right.
   template <class Visitor>
-  void ForEachComponent(Visitor&& visit) noexcept {
-    for (int i = 0; i < count_; ++i) {
-      if (run(i).parent == i) visit(i, run(i), run(i).pixels);
-    }
-  }
-
-  /// Counts, per component, the pixels of those runs that vote for it.
-  template <class Judge>
-  void Vote(Judge&& judge) noexcept {
-    for (int i = 0; i < count_; ++i) {
-      if (judge(run(i))) run(Root(i)).votes += run(i).u_end - run(i).u_begin;
-    }
-  }
-
-  /// visit(root of the run's component, its first run with the component's totals, run)
-  template <class Visitor>
-  void ForEachRun(Visitor&& visit) noexcept {
-    for (int i = 0; i < count_; ++i) {
-      const int root = Root(i);
-      visit(root, run(root), run(i));
-    }
+  void ForEachRun(Visitor&& visit) const noexcept {
+    for (int i = 0; i < count_; ++i) visit(static_cast<int>(run(run(i).parent).pixels), run(i));
   }
 
  private:
+  using Row = std::array<float, static_cast<std::size_t>(kMaxWidth)>;
   // Sensors lose single pixels; a run goes on across such gaps so that holes do not count as the
   // object's outline.
   static constexpr int kBridgedGapPx = 3;
 
+  [[nodiscard]] Row& row_m() noexcept { return rows_m_[current_]; }
   [[nodiscard]] PixelRun& run(int i) noexcept { return runs_[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] const PixelRun& run(int i) const noexcept {
+    return runs_[static_cast<std::size_t>(i)];
+  }
 
   [[nodiscard]] static bool Continuous(float a_m, float b_m, float jump_ratio) noexcept {
     return std::abs(a_m - b_m) <= jump_ratio * std::min(a_m, b_m);
   }
 
-  template <class Accept>
-  void BuildRow(const DepthReader& depth, const PixelBox& box, int v, float jump_ratio,
-                Accept& accept) noexcept {
+  void BuildRow(const PixelBox& box, int v, float jump_ratio) noexcept {
     int begin = -1;
     int last_valid = -1;
     float last_depth_m = 0.0F;
-    for (int u = box.u_min; u < box.u_max; ++u) {
-      const float depth_m = depth.At(u, v);
-      if (depth_m <= 0.0F || !accept(u, v, depth_m)) continue;
-      const bool joins = begin >= 0 && u - last_valid <= kBridgedGapPx + 1 &&
+    const Row& depths_m = row_m();
+    for (int i = 0; i < box.width(); ++i) {
+      const float depth_m = depths_m[static_cast<std::size_t>(i)];
+      if (depth_m <= 0.0F) continue;
+      const bool joins = begin >= 0 && i - last_valid <= kBridgedGapPx + 1 &&
                          Continuous(depth_m, last_depth_m, jump_ratio);
       if (!joins) {
-        if (begin >= 0) Append(v, begin, last_valid + 1);
-        begin = u;
+        if (begin >= 0) Append(v, box.u_min + begin, box.u_min + last_valid + 1);
+        begin = i;
       }
-      last_valid = u;
+      last_valid = i;
       last_depth_m = depth_m;
     }
-    if (begin >= 0) Append(v, begin, last_valid + 1);
+    if (begin >= 0) Append(v, box.u_min + begin, box.u_min + last_valid + 1);
   }
 
   void Append(int v, int u_begin, int u_end) noexcept {
@@ -119,16 +128,15 @@ class PixelRuns {
       return;
     }
     run(count_) = {static_cast<std::int16_t>(v), static_cast<std::int16_t>(u_begin),
-                   static_cast<std::int16_t>(u_end), count_, 0};
+                   static_cast<std::int16_t>(u_end), static_cast<std::uint16_t>(count_), 0};
     ++count_;
   }
 
-  void ConnectRows(const DepthReader& depth, float jump_ratio, int a, int a_end, int b,
-                   int b_end) noexcept {
+  void ConnectRows(int u_origin, float jump_ratio, int a, int a_end, int b, int b_end) noexcept {
     while (a < a_end && b < b_end) {
-      const int u_begin = std::max(run(a).u_begin, run(b).u_begin);
-      const int u_end = std::min(run(a).u_end, run(b).u_end);
-      if (u_begin < u_end && Touch(depth, jump_ratio, run(b).v, u_begin, u_end)) Join(a, b);
+      const int begin = std::max(run(a).u_begin, run(b).u_begin) - u_origin;
+      const int end = std::min(run(a).u_end, run(b).u_end) - u_origin;
+      if (begin < end && Touch(jump_ratio, begin, end)) Join(a, b);
       if (run(a).u_end < run(b).u_end) {
         ++a;
       } else {
@@ -137,11 +145,10 @@ class PixelRuns {
     }
   }
 
-  [[nodiscard]] static bool Touch(const DepthReader& depth, float jump_ratio, int v, int u_begin,
-                                  int u_end) noexcept {
-    for (int u = u_begin; u < u_end; ++u) {
-      const float above_m = depth.At(u, v - 1);
-      const float below_m = depth.At(u, v);
+  [[nodiscard]] bool Touch(float jump_ratio, int begin, int end) const noexcept {
+    for (int i = begin; i < end; ++i) {
+      const float above_m = rows_m_[1 - current_][static_cast<std::size_t>(i)];
+      const float below_m = rows_m_[current_][static_cast<std::size_t>(i)];
       if (above_m > 0.0F && below_m > 0.0F && Continuous(above_m, below_m, jump_ratio)) return true;
     }
     return false;
@@ -158,14 +165,49 @@ class PixelRuns {
   void Join(int a, int b) noexcept {
     const int root_a = Root(a);
     const int root_b = Root(b);
-    run(std::max(root_a, root_b)).parent = std::min(root_a, root_b);
+    run(std::max(root_a, root_b)).parent = static_cast<std::uint16_t>(std::min(root_a, root_b));
   }
 
-  void CountPixels() noexcept {
-    for (int i = 0; i < count_; ++i) run(Root(i)).pixels += run(i).u_end - run(i).u_begin;
+  /// Links every run to its root and counts pixels there. A parent comes before its children.
+  void Flatten() noexcept {
+    for (int i = 0; i < count_; ++i) {
+      PixelRun& r = run(i);
+      r.parent = run(r.parent).parent;
+      PixelRun& root = run(r.parent);
+      root.pixels = static_cast<std::uint16_t>(std::min(65535, root.pixels + r.length()));
+    }
+  }
+
+  void RememberLargest(int fewest_pixels) noexcept {
+    for (int i = 0; i < count_; ++i) {
+      const PixelRun& r = run(i);
+      if (r.parent != i || r.pixels < fewest_pixels) continue;
+      if (!components_.full()) {
+        (void)components_.push_back({i, r.pixels});
+        continue;
+      }
+      auto* smallest = std::min_element(
+          components_.begin(), components_.end(),
+          [](const Component& a, const Component& b) { return a.pixels < b.pixels; });
+      if (smallest->pixels < r.pixels) *smallest = {i, r.pixels};
+    }
+    for (int i = 0; i < count_; ++i) {
+      if (run(i).parent == i) run(i).pixels = static_cast<std::uint16_t>(kNoComponent);
+    }
+    for (int c = 0; c < components_.size(); ++c) {
+      run(components_[c].first_run).pixels = static_cast<std::uint16_t>(c);
+      components_[c].pixels = 0;
+    }
+    // Once more, without saturation.
+    ForEachRun([this](int c, const PixelRun& r) {
+      if (c != kNoComponent) components_[c].pixels += r.length();
+    });
   }
 
   std::array<PixelRun, static_cast<std::size_t>(kMaxRuns)> runs_;
+  FixedVector<Component, kMaxComponents> components_;
+  std::array<Row, 2> rows_m_;  ///< Depths of this row and of the one above.
+  std::size_t current_ = 0;
   int count_ = 0;
   int dropped_ = 0;
 };

@@ -1,140 +1,75 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
 #include "disflow/config.h"
+#include "disflow/depth/depth_frame.h"
 #include "disflow/depth/depth_reader.h"
+#include "disflow/depth/model_gate.h"
 #include "disflow/depth/pixel_mask.h"
 #include "disflow/depth/pixel_runs.h"
+#include "disflow/depth/plane_removal.h"
 #include "disflow/estimate.h"
 
 namespace disflow {
 
-/// What is known of the object before a frame is segmented: its predicted pose and extent.
-struct ModelPrior {
-  bool known = false;
-  PoseObjectFromCamera T_oc;      ///< Predicted.
-  Vec3 box_min_m = Vec3::Zero();  ///< Axis-aligned bounds of the model, object frame.
-  Vec3 box_max_m = Vec3::Zero();
-};
-
-/// Decides which pixels are the object: a given mask; else the range gate and a region grown over
-/// depth continuity from a seed, and once a model exists only where the predicted model can be.
+/// Decides which pixels are the object. The depth image is cut into connected surfaces within reach
+/// of the predicted model (or, before there is a model, within range and region of interest); the
+/// model and the mask, if one is given, say which of them are the object. A given mask is believed
+/// to the pixel only where the depth image agrees with it.
 template <class Limits>
 class Segmenter {
  public:
   using Mask = PixelMask<Limits::kMaxImageWidth, Limits::kMaxImageHeight>;
 
+  /// @param explains explains(x_c): whether known surface of the predicted model is near a point of
+  /// the camera frame. Only called if prior.known.
+  template <class Explains>
   [[nodiscard]] Status Segment(const DepthFrame& frame, const SegmenterConfig& config,
-                               const ModelPrior& prior, Mask& object, Counters& counters) noexcept {
+                               const ModelPrior& prior, Explains&& explains, Mask& object,
+                               Counters& counters) noexcept {
     object.Start(frame.depth.width_px, frame.depth.height_px);
     if (frame.mask.given()) {
-      CopyMask(frame.mask, object);
+      const PixelBox image{0, 0, frame.mask.width_px, frame.mask.height_px};
+      CopyMask(frame.mask, image, object);
       if (object.count() == 0) return Status::kEmptyMask;
-      CutToSurface(frame, config, prior, object, counters);
-      return object.count() > 0 ? Status::kOk : Status::kNoValidDepth;
     }
-    if (config.grow_region != 0) {
-      GrowRegion(frame, config, prior, object, counters);
-    } else {
+    if (!frame.mask.given() && config.grow_region == 0) {
       TakeAll(frame, config, object);
+    } else {
+      BuildSurfaces(frame, config, prior, object, counters);
+      ChooseSurfaces(frame, config, prior, explains, object);
+      if (!frame.mask.given() || !IsExact(object)) Redraw(frame, prior, explains, object);
     }
+    object.Finish();
     return object.count() > 0 ? Status::kOk : Status::kNoValidDepth;
   }
 
  private:
-  static void CopyMask(const MaskView& given, Mask& object) noexcept {
-    for (int v = 0; v < given.height_px; ++v) {
-      const std::uint8_t* row = given.row(v);
-      for (int u = 0; u < given.width_px;) {
-        while (u < given.width_px && row[u] == 0) ++u;
-        const int begin = u;
-        while (u < given.width_px && row[u] != 0) ++u;
-        object.SetRun(v, begin, u);
-      }
-    }
-    object.Finish();
-  }
+  using Surfaces = PixelRuns<Limits::kMaxRuns, Limits::kMaxImageWidth>;
+  static constexpr int kFewestPixels = 30;
+  /// The mask is evidence too, so the prediction may be farther off.
+  static constexpr float kMaskMarginFactor = 2.0F;
 
-  /// A loose or late mask also covers background: takes away connected surfaces that cannot be the
-  /// object. Single pixels without or with stray depth stay, since without them the outline would
-  /// be ragged.
-  void CutToSurface(const DepthFrame& frame, const SegmenterConfig& config, const ModelPrior& prior,
-                    Mask& object, Counters& counters) noexcept {
-    constexpr float kMaskMarginFactor =
-        3.0F;  // the mask is evidence too, so the prediction may be farther off
-    constexpr int kFewestPixels = 30;
-    const DepthReader depth(frame.depth, config.min_range_m, config.max_range_m);
-    const ModelGate gate{frame.camera, prior, kMaskMarginFactor * config.model_margin_m};
-    runs_.Build(depth, object.box(), config.depth_jump_ratio,
-                [&frame](int u, int v, float) { return frame.mask.row(v)[u] != 0; });
-    counters.runs_dropped += static_cast<std::uint32_t>(runs_.dropped());
-    const int largest = prior.known ? -1 : ChooseLargest();
-    if (prior.known) {
-      runs_.Vote([&](const PixelRun& run) {
-        return gate(run.u_begin, run.v, depth.At(run.u_begin, run.v));
-      });
-    }
-    runs_.ForEachRun([&](int root, const PixelRun& whole, const PixelRun& run) {
-      const bool belongs = prior.known ? 2 * whole.votes >= whole.pixels : root == largest;
-      if (!belongs && whole.pixels >= kFewestPixels) object.ClearRun(run.v, run.u_begin, run.u_end);
-    });
+  static void CopyMask(const MaskView& given, const PixelBox& box, Mask& object) noexcept {
+    for (int v = box.v_min; v < box.v_max; ++v)
+      object.SetFromBytes(v, box.u_min, box.u_max, given.row(v));
     object.Finish();
-  }
-
-  [[nodiscard]] int ChooseLargest() noexcept {
-    int best = -1;
-    int most = 0;
-    runs_.ForEachComponent([&](int root, const PixelRun&, int pixels) {
-      if (pixels <= most) return;
-      most = pixels;
-      best = root;
-    });
-    return best;
   }
 
   /// Everything is the object; the range gate drops what is too far pixel by pixel.
   static void TakeAll(const DepthFrame& frame, const SegmenterConfig& config,
                       Mask& object) noexcept {
-    const PixelBox box = SearchBox(frame, config, ModelPrior{});
-    for (int v = box.v_min; v < box.v_max; ++v) object.SetRun(v, box.u_min, box.u_max);
-    object.Finish();
+    const PixelBox box = RegionOfInterest(frame, config);
+    for (int v = box.v_min; v < box.v_max; ++v) object.row(v).SetRun(box.u_min, box.u_max);
   }
 
-  void GrowRegion(const DepthFrame& frame, const SegmenterConfig& config, const ModelPrior& prior,
-                  Mask& object, Counters& counters) noexcept {
-    const DepthReader depth(frame.depth, config.min_range_m, config.max_range_m);
-    const PixelBox box = SearchBox(frame, config, prior);
-    runs_.Build(depth, box, config.depth_jump_ratio,
-                ModelGate{frame.camera, prior, config.model_margin_m});
-    counters.runs_dropped += static_cast<std::uint32_t>(runs_.dropped());
-    const int component = ChooseComponent(depth, config, prior, box);
-    if (component < 0) return;
-    runs_.ForEachRun([&](int root, const PixelRun&, const PixelRun& run) {
-      if (root == component) object.SetRun(run.v, run.u_begin, run.u_end);
-    });
-    object.Finish();
-  }
-
-  /// Accepts the pixels whose points lie within the model's bounds plus a margin.
-  struct ModelGate {
-    const PinholeCamera& camera;
-    const ModelPrior& prior;
-    float margin_m;
-
-    [[nodiscard]] bool operator()(int u, int v, float depth_m) const noexcept {
-      if (!prior.known) return true;
-      const Vec3 x_o =
-          prior.T_oc * camera.BackProject(static_cast<float>(u), static_cast<float>(v), depth_m);
-      return ((x_o - prior.box_min_m).array() > -margin_m).all() &&
-             ((prior.box_max_m - x_o).array() > -margin_m).all();
-    }
-  };
-
-  /// The part of the image worth reading: the region of interest, or around the predicted model.
-  [[nodiscard]] static PixelBox SearchBox(const DepthFrame& frame, const SegmenterConfig& config,
-                                          const ModelPrior& prior) noexcept {
+  [[nodiscard]] static PixelBox RegionOfInterest(const DepthFrame& frame,
+                                                 const SegmenterConfig& config) noexcept {
     PixelBox box{0, 0, frame.depth.width_px, frame.depth.height_px};
-    if (prior.known) return ProjectBounds(frame, config, prior, box);
     if (config.roi_width_px > 0 && config.roi_height_px > 0) {
       box.u_min = std::min(config.roi_x_px, box.u_max);
       box.v_min = std::min(config.roi_y_px, box.v_max);
@@ -144,54 +79,220 @@ class Segmenter {
     return box;
   }
 
-  [[nodiscard]] static PixelBox ProjectBounds(const DepthFrame& frame,
-                                              const SegmenterConfig& config,
-                                              const ModelPrior& prior,
-                                              const PixelBox& image) noexcept {
-    const Vec3 center_o = 0.5F * (prior.box_min_m + prior.box_max_m);
-    const float radius_m =
-        0.5F * (prior.box_max_m - prior.box_min_m).norm() + config.model_margin_m;
-    const Vec3 center_c = prior.T_oc.Inverse() * center_o;
-    const float nearest_m = center_c.z() - radius_m;
-    if (nearest_m < config.min_range_m) return image;
-    const Vec2 center_px = frame.camera.Project(center_c);
-    // Perspective enlarges what is near: the sphere's outline is bounded by its size at the nearest
-    // depth.
-    const float radius_u = frame.camera.fx_px * radius_m / nearest_m;
-    const float radius_v = frame.camera.fy_px * radius_m / nearest_m;
-    const auto clamp = [](float px, int high) {
-      return static_cast<int>(std::min(std::max(px, 0.0F), static_cast<float>(high)));
-    };
-    return {clamp(center_px.x() - radius_u, image.u_max),
-            clamp(center_px.y() - radius_v, image.v_max),
-            clamp(center_px.x() + radius_u + 1.0F, image.u_max),
-            clamp(center_px.y() + radius_v + 1.0F, image.v_max)};
+  /// Connected surfaces of what could be the object.
+  void BuildSurfaces(const DepthFrame& frame, const SegmenterConfig& config,
+                     const ModelPrior& prior, const Mask& mask, Counters& counters) noexcept {
+    const DepthReader depth(frame.depth, config.min_range_m, config.max_range_m);
+    const bool masked = frame.mask.given();
+    if (prior.known) {
+      const float factor = masked ? kMaskMarginFactor : 1.0F;
+      const float margin_m =
+          factor * config.model_margin_m + (prior.doubtful ? config.lost_margin_m : 0.0F);
+      const ModelGate gate(frame.camera, prior, margin_m);
+      box_ =
+          gate.SearchBox(config.min_range_m, {0, 0, frame.depth.width_px, frame.depth.height_px});
+      planes_.Clear();
+      if (!masked) {
+        planes_.Find(depth, box_, [&](int u, int v, float depth_m) {
+          return !gate.Accepts(
+              frame.camera.BackProject(static_cast<float>(u), static_cast<float>(v), depth_m));
+        });
+      }
+      surfaces_.Build(depth, box_, config.depth_jump_ratio, kFewestPixels,
+                      [&](int v, int u_begin, int u_end, float* depth_m) {
+                        gate(v, u_begin, u_end, depth_m);
+                        planes_(v, u_begin, u_end, depth_m);
+                      });
+    } else if (masked) {
+      box_ = mask.box();
+      surfaces_.Build(depth, box_, config.depth_jump_ratio, kFewestPixels,
+                      [&mask](int v, int u_begin, int u_end, float* depth_m) {
+                        for (int u = u_begin; u < u_end; ++u)
+                          if (!mask.row(v).Test(u)) depth_m[u - u_begin] = 0.0F;
+                      });
+    } else {
+      box_ = RegionOfInterest(frame, config);
+      const int fewest_pixels = std::max(64, box_.width() * box_.height() / 2000);
+      planes_.Find(depth, box_, [](int, int, float) { return true; });
+      surfaces_.Build(depth, box_, config.depth_jump_ratio, fewest_pixels, planes_);
+      if (surfaces_.components() == 0) {  // nothing but planes: one of them is the object's own
+        planes_.Clear();
+        surfaces_.Build(depth, box_, config.depth_jump_ratio, fewest_pixels, planes_);
+      }
+    }
+    counters.runs_dropped += static_cast<std::uint32_t>(surfaces_.dropped());
   }
 
-  /// The component under the seed pixel; else the largest; before a model exists, larger counts for
-  /// less when farther away, so that the object in front wins over the wall behind it.
-  [[nodiscard]] int ChooseComponent(const DepthReader& depth, const SegmenterConfig& config,
-                                    const ModelPrior& prior, const PixelBox& box) noexcept {
-    if (!prior.known && config.seed_u_px >= 0 && config.seed_v_px >= 0) {
-      return runs_.ComponentAt(config.seed_u_px, config.seed_v_px);
+  /// What is known of one connected surface.
+  struct Vote {
+    bool chosen = false;
+    int masked = 0;     ///< Its pixels within the mask.
+    int probed = 0;     ///< Its points that the model was asked about.
+    int explained = 0;  ///< Of these, those near known surface.
+  };
+
+  template <class Explains>
+  void ChooseSurfaces(const DepthFrame& frame, const SegmenterConfig& config,
+                      const ModelPrior& prior, Explains& explains, const Mask& mask) noexcept {
+    votes_ = {};
+    const int count = surfaces_.components();
+    if (!prior.known) {
+      const int first = ChooseFirst(frame, config);
+      if (first < count) vote(first).chosen = true;
+      return;
     }
-    const int min_pixels = std::max(64, box.width() * box.height() / 2000);
-    int best = -1;
+    const bool masked = frame.mask.given();
+    bool clear = count == 1;  // no need to ask the model
+    if (masked) {
+      surfaces_.ForEachRun([&](int c, const PixelRun& run) {
+        if (c != Surfaces::kNoComponent)
+          vote(c).masked += mask.row(run.v).CountRun(run.u_begin, run.u_end);
+      });
+      clear = clear && 2 * vote(0).masked >= surfaces_.component(0).pixels;
+    }
+    if (!clear && !prior.doubtful) {
+      const DepthReader depth(frame.depth, config.min_range_m, config.max_range_m);
+      surfaces_.ForEachRun([&](int c, const PixelRun& run) {
+        if (c != Surfaces::kNoComponent && run.v % kProbeStepPx == 0)
+          Probe(depth, frame.camera, explains, run, vote(c));
+      });
+    }
+    int most = 0;
+    for (int c = 0; c < count; ++c) {
+      if (surfaces_.component(c).pixels > surfaces_.component(most).pixels) most = c;
+      vote(c).chosen = !prior.doubtful && Belongs(vote(c), surfaces_.component(c).pixels, masked);
+    }
+    const bool none =
+        std::none_of(votes_.begin(), votes_.end(), [](const Vote& v) { return v.chosen; });
+    // A prediction that is far off explains nothing.
+    if (none && count > 0 && !masked) vote(most).chosen = true;
+  }
+
+  [[nodiscard]] static bool Belongs(const Vote& vote, int pixels, bool masked) noexcept {
+    const bool explained = vote.probed > 0 && 10 * vote.explained >= 3 * vote.probed;
+    if (!masked) return explained || vote.probed == 0;
+    if (2 * vote.masked < pixels) return vote.masked > 0 && explained;
+    return vote.probed < 4 || 10 * vote.explained >= vote.probed;
+  }
+
+  /// Before a model exists: what lies under the seed pixel, most of the mask, or the nearest.
+  [[nodiscard]] int ChooseFirst(const DepthFrame& frame,
+                                const SegmenterConfig& config) const noexcept {
+    const DepthReader depth(frame.depth, config.min_range_m, config.max_range_m);
+    const bool masked = frame.mask.given();
+    if (!masked && config.seed_u_px >= 0 && config.seed_v_px >= 0)
+      return surfaces_.ComponentAt(config.seed_u_px, config.seed_v_px);
+    int best = Surfaces::kNoComponent;
     float best_score = 0.0F;
-    runs_.ForEachComponent([&](int root, const PixelRun& first, int pixels) {
-      if (pixels < min_pixels) return;
-      const float depth_m = depth.At(first.u_begin, first.v);
-      const float score =
-          prior.known ? static_cast<float>(pixels) : 1.0F / std::max(depth_m, config.min_range_m);
-      if (score > best_score) {
-        best_score = score;
-        best = root;
-      }
-    });
+    for (int c = 0; c < surfaces_.components(); ++c) {
+      const PixelRun& first = surfaces_.first_run(c);
+      const float score = masked ? static_cast<float>(surfaces_.component(c).pixels)
+                                 : 1.0F / std::max(depth.At(first.u_begin, first.v), 1e-3F);
+      if (score <= best_score) continue;
+      best_score = score;
+      best = c;
+    }
     return best;
   }
 
-  PixelRuns<Limits::kMaxRuns> runs_;
+  /// Asks the model about every few points of a run.
+  template <class Explains>
+  static void Probe(const DepthReader& depth, const PinholeCamera& camera, Explains& explains,
+                    const PixelRun& run, Vote& vote) noexcept {
+    for (int u = run.u_begin + std::min(kProbeStepPx, run.length()) / 2; u < run.u_end;
+         u += kProbeStepPx) {
+      const float depth_m = depth.At(u, run.v);
+      if (depth_m <= 0.0F) continue;
+      ++vote.probed;
+      if (explains(camera.BackProject(static_cast<float>(u), static_cast<float>(run.v), depth_m)))
+        ++vote.explained;
+    }
+  }
+
+  /// Whether the outline of the mask and that of the chosen surfaces are the same but for the
+  /// pixels that a sensor loses along any outline. Takes away from the mask what is not chosen.
+  [[nodiscard]] bool IsExact(Mask& mask) noexcept {
+    int covered = 0;
+    int outside = 0;
+    PixelBox bounds{box_.u_max, box_.v_max, box_.u_min, box_.v_min};
+    surfaces_.ForEachRun([&](int c, const PixelRun& run) {
+      if (c == Surfaces::kNoComponent || !vote(c).chosen) return;
+      const int inside = mask.row(run.v).CountRun(run.u_begin, run.u_end);
+      covered += inside;
+      outside += run.length() - inside;
+      if (inside == 0) return;
+      bounds.u_min = std::min(bounds.u_min, static_cast<int>(run.u_begin));
+      bounds.u_max = std::max(bounds.u_max, static_cast<int>(run.u_end));
+      bounds.v_min = std::min(bounds.v_min, static_cast<int>(run.v));
+      bounds.v_max = std::max(bounds.v_max, static_cast<int>(run.v) + 1);
+    });
+    if (covered == 0) return false;
+    const auto outline = 2.0F * static_cast<float>(bounds.width() + bounds.height());
+    const auto lost = static_cast<float>(mask.count() - covered);
+    return static_cast<float>(outside) < kOutsidePx * outline &&
+           lost < kLostPx * outline + kLostShare * static_cast<float>(mask.count());
+  }
+
+  /// Draws the object anew from the chosen surfaces: those parts that the mask covers or the model
+  /// explains.
+  template <class Explains>
+  void Redraw(const DepthFrame& frame, const ModelPrior& prior, Explains& explains,
+              Mask& object) noexcept {
+    const bool masked = frame.mask.given();
+    const DepthReader depth(frame.depth, 0.0F, 1e6F);
+    int v_done = 0;
+    typename Mask::Row drawn;
+    drawn.Clear();
+    const auto flush = [&](int v) {
+      for (; v_done < v; ++v_done) {
+        object.row(v_done) = drawn;
+        drawn.Clear();
+      }
+    };
+    surfaces_.ForEachRun([&](int c, const PixelRun& run) {
+      if (c == Surfaces::kNoComponent || !vote(c).chosen) return;
+      flush(run.v);
+      const auto& mask = object.row(run.v);
+      const int inside = masked ? mask.CountRun(run.u_begin, run.u_end) : run.length();
+      if (inside == run.length()) {
+        drawn.SetRun(run.u_begin, run.u_end);
+        return;
+      }
+      for (int u = run.u_begin; u < run.u_end; u += kProbeStepPx) {
+        const int u_end = std::min(u + kProbeStepPx, static_cast<int>(run.u_end));
+        Vote piece;
+        if (mask.CountRun(u, u_end) < u_end - u && prior.known) {
+          const PixelRun part{run.v, static_cast<std::int16_t>(u), static_cast<std::int16_t>(u_end),
+                              0, 0};
+          Probe(depth, frame.camera, explains, part, piece);
+        }
+        if (piece.explained > 0) {
+          drawn.SetRun(u, u_end);
+        } else {
+          for (int i = u; i < u_end; ++i)
+            if (mask.Test(i)) drawn.SetRun(i, i + 1);
+        }
+      }
+    });
+    flush(object.height_px());
+    object.Finish();
+    object.template Close<kClosingPx>();
+  }
+
+  [[nodiscard]] Vote& vote(int component) noexcept {
+    return votes_[static_cast<std::size_t>(component)];
+  }
+
+  static constexpr int kProbeStepPx = 8;
+  static constexpr int kClosingPx = 2;
+  static constexpr float kOutsidePx = 0.5F;
+  static constexpr float kLostPx = 1.5F;
+  static constexpr float kLostShare = 0.02F;
+
+  Surfaces surfaces_;
+  PlaneRemoval planes_;
+  PixelBox box_;
+  std::array<Vote, static_cast<std::size_t>(Surfaces::kMaxComponents)> votes_;
 };
 
 }  // namespace disflow

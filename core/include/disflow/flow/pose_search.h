@@ -2,13 +2,15 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 
 #include "disflow/flow/registration.h"
+#include "disflow/memory/fixed_vector.h"
 
 namespace disflow {
 
-/// Fast motion: when the predicted pose explains the frame badly, a bounded set of other starts is
-/// tried, each for a few steps, and the best explained one wins.
+/// Fast motion and loss: when the predicted pose explains the frame badly, a bounded set of other
+/// starts is tried, each for a few steps, and the best explained one wins.
 template <class Limits>
 class PoseSearch {
  public:
@@ -21,22 +23,77 @@ class PoseSearch {
     int tried = 1;
   };
 
-  /// @param T_predicted Pose by constant velocity.
-  /// @param T_previous Pose of the previous frame.
-  /// @param velocity_known false: the object was just started, the prediction is no more than a
-  /// guess.
+  /// What is known before a frame is registered.
+  struct Prior {
+    PoseObjectFromCamera T_predicted;  ///< By constant velocity.
+    PoseObjectFromCamera T_previous;   ///< Of the last registered frame.
+    bool velocity_known =
+        false;  ///< false: the object was just started, the prediction is a guess.
+    /// 0: the object was registered in the last frame. Else it has to be searched for, for the
+    /// n-th frame in a row.
+    int search = 0;
+  };
+
   [[nodiscard]] static Start Find(const RegistrationType& registration, const Field& field,
                                   const Model& edges, const RegistrationConfig& config,
-                                  const PoseObjectFromCamera& T_predicted,
-                                  const PoseObjectFromCamera& T_previous,
-                                  bool velocity_known) noexcept {
-    Start best{T_predicted, 1};
-    if (velocity_known && registration.Score(field, config, T_predicted) >= config.hypothesis_score)
-      return best;
-    const std::array<PoseObjectFromCamera, 5> starts{
-        T_predicted, T_previous, Recentred(registration, field, T_predicted),
-        Recentred(registration, field, T_previous),
-        HalfWay(registration.center_c(), T_previous, T_predicted)};
+                                  const Prior& prior) noexcept {
+    if (prior.search == 0 && prior.velocity_known &&
+        registration.Score(field, config, prior.T_predicted) >= config.hypothesis_score) {
+      return {prior.T_predicted, 1};
+    }
+    Starts starts;
+    (void)starts.push_back(prior.T_predicted);
+    (void)starts.push_back(prior.T_previous);
+    (void)starts.push_back(Recentred(registration, field, prior.T_predicted));
+    (void)starts.push_back(Recentred(registration, field, prior.T_previous));
+    if (prior.search == 0) {
+      (void)starts.push_back(HalfWay(registration.center_c(), prior.T_previous, prior.T_predicted));
+    } else {
+      AddTurned(registration, field, prior, starts);
+    }
+    return Best(registration, field, edges, config, starts);
+  }
+
+  /// Samples that starts are compared on.
+  static constexpr int kPoints = Limits::kMaxRegistrationPoints * 2 / 5;
+  /// Starts that are tried in one frame at most.
+  static constexpr int kMaxStarts = 8;
+
+ private:
+  static constexpr float kEdgeShare = 0.3F;
+  using Starts = FixedVector<PoseObjectFromCamera, kMaxStarts>;
+
+  /// While the object is lost its rotation may be off by more than a registration corrects: a part
+  /// of a grid of rotations about the predicted one, a different part in every frame, so that a
+  /// frame's time stays bounded. The grid reaches 30 degrees in every direction.
+  static void AddTurned(const RegistrationType& registration, const Field& field,
+                        const Prior& prior, Starts& starts) noexcept {
+    constexpr int kDirections = 14;  // the axes and the diagonals of a cube, both ways
+    constexpr float kAngle_rad = 0.38F;
+    for (int i = 0; !starts.full(); ++i) {
+      const int index = ((prior.search - 1) * (kMaxStarts - 4) + i) % kDirections;
+      const Vec3 turn = kAngle_rad * CubeDirection(index);
+      const PoseObjectFromCamera turned(Mat3(ExpSo3(turn) * prior.T_predicted.rotation()),
+                                        prior.T_predicted.translation());
+      (void)starts.push_back(Recentred(registration, field, turned));
+    }
+  }
+
+  [[nodiscard]] static Vec3 CubeDirection(int index) noexcept {
+    if (index < 6) {
+      Vec3 axis = Vec3::Zero();
+      axis[index / 2] = index % 2 == 0 ? 1.0F : -1.0F;
+      return axis;
+    }
+    const int corner = index - 6;
+    return Vec3(corner & 1 ? 1.0F : -1.0F, corner & 2 ? 1.0F : -1.0F, corner & 4 ? 1.0F : -1.0F)
+        .normalized();
+  }
+
+  [[nodiscard]] static Start Best(const RegistrationType& registration, const Field& field,
+                                  const Model& edges, const RegistrationConfig& config,
+                                  const Starts& starts) noexcept {
+    Start best{starts[0], starts.size()};
     float best_score = -1.0F;
     for (const PoseObjectFromCamera& T_start : starts) {
       const auto aligned =
@@ -49,12 +106,8 @@ class PoseSearch {
         best.T_oc = aligned.T_oc;
       }
     }
-    best.tried = static_cast<int>(starts.size());
     return best;
   }
-
- private:
-  static constexpr float kEdgeShare = 0.3F;
 
   /// The same rotation, with the observed centroid put onto the centroid of the model's part that
   /// faces the camera.

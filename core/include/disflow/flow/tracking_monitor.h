@@ -13,27 +13,39 @@ class TrackingMonitor {
   /// What one frame offered as evidence.
   struct Evidence {
     bool registered = false;
-    float score = 0.0F;  ///< Share of observed samples that the model explains.
+    float score = 0.0F;     ///< Share of observed samples that the model explains.
+    float conflict = 0.0F;  ///< Share of the model's visible points that are not there.
     int inliers = 0;
-    int points = 0;  ///< Samples that were registered.
-    float position_std_m = 0.0F;
+    int points = 0;               ///< Samples that were registered.
+    float position_std_m = 0.0F;  ///< In the worst direction, as reported.
     float rotation_std_rad = 0.0F;
   };
 
   void Start(const MonitorConfig& config, StampNs stamp_ns) noexcept;
-  /// Whether a registration result is good enough to be believed at all.
-  [[nodiscard]] bool Accepts(const Evidence& evidence) const noexcept;
+  /// Whether a registration result is good enough to be believed at all. After frames that were
+  /// not, more is asked for: the pose was searched for instead of followed.
+  [[nodiscard]] bool Accepts(const Evidence& evidence, StampNs stamp_ns) const noexcept;
   void Update(const Evidence& evidence, StampNs stamp_ns) noexcept;
 
   [[nodiscard]] TrackingState state() const noexcept { return state_; }
   [[nodiscard]] std::uint8_t quality() const noexcept { return quality_; }
+  /// Whether the prediction for a frame is doubtful: the last frames could not be registered, or
+  /// none came for a long time.
+  [[nodiscard]] bool Doubts(StampNs stamp_ns) const noexcept {
+    return missed_ > 0 || stamp_ns - last_registered_ns_ > kLongGap_ns;
+  }
+  /// Frames in a row, up to now, that could not be registered.
+  [[nodiscard]] int missed() const noexcept { return missed_; }
   /// Lost for so long that the object should be started anew.
   [[nodiscard]] bool ShouldRestart(StampNs stamp_ns) const noexcept;
 
  private:
   static constexpr int kInitialFrames = 5;
   static constexpr int kRecoveryFrames = 5;
+  static constexpr StampNs kLongGap_ns = 150'000'000;
 
+  [[nodiscard]] bool Trusts(const Evidence& evidence) const noexcept;
+  [[nodiscard]] TrackingState AfterRegistered(const Evidence& evidence) const noexcept;
   [[nodiscard]] std::uint8_t Grade(const Evidence& evidence) const noexcept;
 
   MonitorConfig config_{};

@@ -9,9 +9,10 @@
 
 namespace disflow {
 
-/// Kalman filter with constant acceleration, open to impulses, driven by registered poses; yields velocity at the
-/// frame's capture time. A finite difference of poses would lag by half a frame. Bar-Shalom et al.,
-/// "Estimation with Applications to Tracking and Navigation", section 6.2.3 (white-noise jerk).
+/// Kalman filter with constant acceleration, open to impulses, driven by registered poses; yields
+/// velocity at the frame's capture time. A finite difference of poses would lag by half a frame.
+/// Bar-Shalom et al., "Estimation with Applications to Tracking and Navigation", section 6.2.3
+/// (white-noise jerk).
 ///
 /// State in camera axes: pose (position of the object's origin, rotation), twist, acceleration; six
 /// components each.

@@ -24,8 +24,8 @@ class DepthRenderer {
   DepthRenderer(const PinholeCamera& camera, int width_px, int height_px);
 
   void Clear();
-  /// The part of an unbounded plane that lies in front of the camera; label 0.
-  void DrawPlane(const Plane& plane);
+  /// The part of an unbounded plane that lies in front of the camera.
+  void DrawPlane(const Plane& plane, std::uint32_t label = 0);
   /// Triangles seen from outside; those that reach behind the near limit are left out.
   /// @param T_cm Mesh in the camera frame.
   void DrawMesh(const TriangleMesh& mesh, const Transform<Camera, Object, double>& T_cm,

@@ -13,6 +13,7 @@
 #include "disflow/host/sensor_noise.h"
 #include "disflow/host/simulation_options.h"
 #include "disflow/host/sloppy_mask.h"
+#include "disflow/host/touching_hand.h"
 #include "disflow/host/triangle_mesh.h"
 
 namespace disflow::host {
@@ -51,6 +52,8 @@ class Simulation {
 
  private:
   void DrawScene(int index, const FrameTruth& truth);
+  void DrawOccluder(double time_s, const FrameTruth& truth);
+  [[nodiscard]] Plane TableAt(double time_s, const FrameTruth& truth) const;
   [[nodiscard]] DepthView DepthToDeliver();
   [[nodiscard]] MaskView ViewOf(std::span<const std::uint8_t> mask) const;
 
@@ -62,6 +65,7 @@ class Simulation {
   std::unique_ptr<const ObjectMotion> object_motion_;
   std::optional<CameraMotion> camera_motion_;
   std::optional<OccludingArm> arm_;
+  std::optional<TouchingHand> hand_;
   DepthRenderer renderer_;
   std::optional<SensorNoise> noise_;
   SloppyMask sloppy_;

@@ -18,9 +18,19 @@ enum class MotionKind : std::uint8_t {
   kFast,       ///< Peaks of 0.6 m/s and 270 deg/s.
   kRotate360,  ///< One full turn about a nearly vertical axis, back to the start.
   kFlying,     ///< Peaks of 1.2 m/s and 500 deg/s with velocity jumps between frames.
+  kLeaving,    ///< Out of the view after a second, back a second later.
 };
 enum class NoiseKind : std::uint8_t { kClean, kD415, kKinect };
-enum class OccluderKind : std::uint8_t { kNone, kArm };
+enum class OccluderKind : std::uint8_t {
+  kNone,
+  kArm,      ///< A forearm passes in front and hides up to half of the object.
+  kCurtain,  ///< Hides everything from 1.0 to 1.5 s.
+  kHand,     ///< Touches the object from 1 to 3 s and moves along with it.
+};
+enum class SupportKind : std::uint8_t {
+  kNone,
+  kTable,  ///< The object's lowest point rests on a table top for a second; then it is lifted off.
+};
 enum class CameraKind : std::uint8_t { kStatic, kMoving };
 enum class MaskKind : std::uint8_t { kGt, kSloppy, kNone };
 
@@ -37,6 +47,7 @@ struct SimulationOptions {
   int height_px = 360;
   double focal_px = 0.0;  ///< 0 = as Fast-YCB's camera at this width.
   OccluderKind occluder = OccluderKind::kNone;
+  SupportKind support = SupportKind::kNone;
   double drop = 0.0;  ///< Share of frames that are lost; never the first.
   CameraKind camera = CameraKind::kStatic;
   MaskKind mask = MaskKind::kGt;

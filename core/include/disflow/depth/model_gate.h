@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "disflow/depth/pixel_mask.h"
+#include "disflow/geometry/pinhole_camera.h"
+#include "disflow/geometry/transform.h"
+
+namespace disflow {
+
+/// What is known of the object before a frame is segmented: its predicted pose and extent.
+struct ModelPrior {
+  bool known = false;
+  bool doubtful = false;          ///< The prediction may be far off: the object was lost.
+  PoseObjectFromCamera T_oc;      ///< Predicted.
+  Vec3 box_min_m = Vec3::Zero();  ///< Axis-aligned bounds of the model, object frame.
+  Vec3 box_max_m = Vec3::Zero();
+};
+
+/// Accepts the pixels whose points lie within the model's bounds plus a margin.
+class ModelGate {
+ public:
+  ModelGate(const PinholeCamera& camera, const ModelPrior& prior, float margin_m) noexcept
+      : camera_(camera),
+        prior_(prior),
+        half_m_(0.5F * (prior.box_max_m - prior.box_min_m) + Vec3::Constant(margin_m)),
+        offset_m_(prior.T_oc.translation() - 0.5F * (prior.box_max_m + prior.box_min_m)),
+        step_(prior.T_oc.rotation().col(0) / camera.fx_px) {}
+
+  /// Sets the depth of pixels that are not accepted to 0; all of a row in one go, since a point is
+  /// affine in the pixel's column.
+  void operator()(int v, int u_begin, int u_end, float* depth_m) const noexcept {
+    const Vec3 start =
+        prior_.T_oc.rotation() * camera_.Ray(static_cast<float>(u_begin), static_cast<float>(v));
+    for (int i = 0; i < u_end - u_begin; ++i) {
+      const auto u = static_cast<float>(i);
+      const float z = depth_m[i];
+      const float x_m = z * (start.x() + u * step_.x()) + offset_m_.x();
+      const float y_m = z * (start.y() + u * step_.y()) + offset_m_.y();
+      const float z_m = z * (start.z() + u * step_.z()) + offset_m_.z();
+      const bool inside = (std::abs(x_m) <= half_m_.x()) & (std::abs(y_m) <= half_m_.y()) &
+                          (std::abs(z_m) <= half_m_.z());
+      depth_m[i] = inside ? z : 0.0F;
+    }
+  }
+
+  /// Whether a single point, camera frame, is accepted.
+  [[nodiscard]] bool Accepts(const Vec3& x_c) const noexcept {
+    const Vec3 x_o = prior_.T_oc.rotation() * x_c + offset_m_;
+    return (x_o.cwiseAbs().array() <= half_m_.array()).all();
+  }
+
+  /// The part of the image where accepted pixels can be.
+  [[nodiscard]] PixelBox SearchBox(float min_range_m, const PixelBox& image) const noexcept {
+    const PoseCameraFromObject T_co = prior_.T_oc.Inverse();
+    Vec2 low(1e9F, 1e9F);
+    Vec2 high(-1e9F, -1e9F);
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3 sign(corner & 1 ? 1.0F : -1.0F, corner & 2 ? 1.0F : -1.0F,
+                      corner & 4 ? 1.0F : -1.0F);
+      const Vec3 x_c = T_co * Vec3(0.5F * (prior_.box_max_m + prior_.box_min_m) +
+                                   Vec3(sign.array() * half_m_.array()));
+      if (!(x_c.z() >= min_range_m)) return image;
+      const Vec2 px = camera_.Project(x_c);
+      low = low.cwiseMin(px);
+      high = high.cwiseMax(px);
+    }
+    const auto clamp = [](float px, int high_px) {
+      return static_cast<int>(std::min(std::max(px, 0.0F), static_cast<float>(high_px)));
+    };
+    return {clamp(low.x(), image.u_max), clamp(low.y(), image.v_max),
+            clamp(high.x() + 1.0F, image.u_max), clamp(high.y() + 1.0F, image.v_max)};
+  }
+
+ private:
+  const PinholeCamera& camera_;
+  const ModelPrior& prior_;
+  Vec3 half_m_;
+  Vec3 offset_m_;
+  Vec3 step_;
+};
+
+}  // namespace disflow

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "disflow/depth/depth_reader.h"
+#include "disflow/depth/pixel_mask.h"
+#include "disflow/memory/fixed_vector.h"
+#include "disflow/types.h"
+
+namespace disflow {
+
+/// Finds the planes that an object stands on or leans against: those that go on beyond the part of
+/// the image where the object can be. A face of the object ends within it and stays.
+///
+/// In inverse depth w = 1/z a plane is affine in the pixel, w = a u + b v + c, and the noise of a
+/// stereo sensor is the same everywhere, so one tolerance does for near and far.
+class PlaneRemoval {
+ public:
+  /// @param box Part of the image to look at.
+  /// @param is_context is_context(u, v, depth_m): whether a pixel of the box surely is not the
+  /// object.
+  template <class IsContext>
+  void Find(const DepthReader& depth, const PixelBox& box, IsContext&& is_context) noexcept {
+    planes_.clear();
+    Collect(depth, box, is_context);
+    const int total = points_.size();
+    if (total < kFewestPoints) return;
+    while (!planes_.full()) {
+      Plane best;
+      int most = 0;
+      for (int tile = 0; tile < kTiles * kTiles; ++tile) {
+        Plane plane;
+        if (!FitTile(box, tile, plane)) continue;
+        const int inliers = CountInliers(plane);
+        if (inliers <= most || !ReachesBorder(plane, box)) continue;
+        most = inliers;
+        best = plane;
+      }
+      if (most < kFewestPoints || most < static_cast<int>(kFewestShare * static_cast<float>(total)))
+        return;
+      for (int round = 0; round < 2; ++round) {
+        (void)Fit([&](const Point& p) { return IsOn(best, p); }, best);
+      }
+      (void)planes_.push_back(best);
+      for (int i = points_.size() - 1; i >= 0; --i)
+        if (IsOn(best, points_[i])) points_.swap_remove(i);
+    }
+  }
+
+  void Clear() noexcept { planes_.clear(); }
+  [[nodiscard]] bool empty() const noexcept { return planes_.empty(); }
+
+  /// Sets to 0 the depths of a row's pixels that lie on a plane.
+  void operator()(int v, int u_begin, int u_end, float* depth_m) const noexcept {
+    for (const Plane& plane : planes_) {
+      const float start = plane.At(static_cast<float>(u_begin), static_cast<float>(v));
+      for (int i = 0; i < u_end - u_begin; ++i) {
+        const float z = depth_m[i];
+        const float w = start + plane.slope_u * static_cast<float>(i);
+        depth_m[i] = std::abs(1.0F - z * w) < kTolerance_per_m * z ? 0.0F : z;
+      }
+    }
+  }
+
+ private:
+  struct Plane {
+    float slope_u = 0.0F;
+    float slope_v = 0.0F;
+    float offset = 0.0F;
+    [[nodiscard]] float At(float u, float v) const noexcept {
+      return slope_u * u + slope_v * v + offset;
+    }
+  };
+  struct Point {
+    float u, v, w;
+  };
+  static constexpr int kMaxPlanes = 3;
+  static constexpr int kMaxPoints = 640;
+  static constexpr int kTiles = 6;  ///< Planes are guessed from the tiles of a 6 x 6 grid.
+  static constexpr int kFewestPoints = 24;
+  static constexpr int kFewestPerTile = 5;
+  static constexpr int kFewestAtBorder = 8;
+  static constexpr float kFewestShare = 0.2F;
+  /// Three standard deviations of a good stereo camera's inverse depth.
+  static constexpr float kTolerance_per_m = 0.010F;
+
+  template <class IsContext>
+  void Collect(const DepthReader& depth, const PixelBox& box, IsContext& is_context) noexcept {
+    points_.clear();
+    const auto area = static_cast<float>(box.width()) * static_cast<float>(box.height());
+    const int step =
+        std::max(2, static_cast<int>(std::ceil(std::sqrt(area / static_cast<float>(kMaxPoints)))));
+    for (int v = box.v_min + step / 2; v < box.v_max; v += step) {
+      for (int u = box.u_min + step / 2; u < box.u_max; u += step) {
+        const float depth_m = depth.At(u, v);
+        if (depth_m > 0.0F && is_context(u, v, depth_m))
+          (void)points_.push_back({static_cast<float>(u), static_cast<float>(v), 1.0F / depth_m});
+      }
+    }
+  }
+
+  [[nodiscard]] static bool IsOn(const Plane& plane, const Point& p) noexcept {
+    return std::abs(p.w - plane.At(p.u, p.v)) < kTolerance_per_m;
+  }
+
+  [[nodiscard]] int CountInliers(const Plane& plane) const noexcept {
+    return static_cast<int>(std::count_if(points_.begin(), points_.end(),
+                                          [&](const Point& p) { return IsOn(plane, p); }));
+  }
+
+  /// A face of the object ends within the box.
+  [[nodiscard]] bool ReachesBorder(const Plane& plane, const PixelBox& box) const noexcept {
+    constexpr float kShare = 0.06F;
+    const float du = kShare * static_cast<float>(box.width());
+    const float dv = kShare * static_cast<float>(box.height());
+    const auto inliers = std::count_if(points_.begin(), points_.end(), [&](const Point& p) {
+      const bool at_border =
+          p.u < static_cast<float>(box.u_min) + du || p.u >= static_cast<float>(box.u_max) - du ||
+          p.v < static_cast<float>(box.v_min) + dv || p.v >= static_cast<float>(box.v_max) - dv;
+      return at_border && IsOn(plane, p);
+    });
+    return inliers >= kFewestAtBorder;
+  }
+
+  [[nodiscard]] bool FitTile(const PixelBox& box, int tile, Plane& plane) const noexcept {
+    const float width = static_cast<float>(box.width()) / kTiles;
+    const float height = static_cast<float>(box.height()) / kTiles;
+    const float u_min = static_cast<float>(box.u_min) + width * static_cast<float>(tile % kTiles);
+    const float v_min = static_cast<float>(box.v_min) + height * static_cast<float>(tile / kTiles);
+    return Fit(
+        [&](const Point& p) {
+          return p.u >= u_min && p.u < u_min + width && p.v >= v_min && p.v < v_min + height;
+        },
+        plane);
+  }
+
+  /// Least squares over the points that `take` accepts.
+  template <class Take>
+  [[nodiscard]] bool Fit(Take&& take, Plane& plane) const noexcept {
+    Vec3 mean = Vec3::Zero();
+    int count = 0;
+    for (const Point& p : points_) {
+      if (!take(p)) continue;
+      mean += Vec3(p.u, p.v, p.w);
+      ++count;
+    }
+    if (count < kFewestPerTile) return false;
+    mean /= static_cast<float>(count);
+    float uu = 0.0F, uv = 0.0F, vv = 0.0F, uw = 0.0F, vw = 0.0F;
+    for (const Point& p : points_) {
+      if (!take(p)) continue;
+      const float u = p.u - mean.x();
+      const float v = p.v - mean.y();
+      uu += u * u;
+      uv += u * v;
+      vv += v * v;
+      uw += u * (p.w - mean.z());
+      vw += v * (p.w - mean.z());
+    }
+    const float determinant = uu * vv - uv * uv;
+    if (!(determinant > 1e-3F * uu * vv) || !(uu > 0.0F)) return false;
+    plane.slope_u = (vv * uw - uv * vw) / determinant;
+    plane.slope_v = (uu * vw - uv * uw) / determinant;
+    plane.offset = mean.z() - plane.slope_u * mean.x() - plane.slope_v * mean.y();
+    return true;
+  }
+
+  FixedVector<Point, kMaxPoints + kMaxPoints / 4> points_;
+  FixedVector<Plane, kMaxPlanes> planes_;
+};
+
+}  // namespace disflow

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+
+#include "disflow/depth/depth_reader.h"
+#include "disflow/geometry/pinhole_camera.h"
+#include "disflow/geometry/transform.h"
+
+namespace disflow {
+
+/// What a depth image says of the surface that a pose claims to be in view. The registration only
+/// knows how well the model explains what was observed; this is the reverse, and it sees what the
+/// registration cannot: surface that should be there and is not.
+struct ModelAgreement {
+  int seen = 0;          ///< Model points where the image shows surface as it should.
+  int contradicted = 0;  ///< Model points that the image looks through.
+  int hidden = 0;        ///< Behind something nearer, or without depth.
+  int outside = 0;       ///< Out of the image.
+
+  [[nodiscard]] int facing() const noexcept { return seen + contradicted + hidden + outside; }
+  /// Share of the decided points that contradict the pose, 0..1.
+  [[nodiscard]] float conflict() const noexcept {
+    const int decided = seen + contradicted;
+    return decided == 0 ? 0.0F : static_cast<float>(contradicted) / static_cast<float>(decided);
+  }
+  /// Share of the points facing the camera that are seen or contradicted, 0..1.
+  [[nodiscard]] float visible() const noexcept {
+    const int all = facing();
+    return all == 0 ? 0.0F : static_cast<float>(seen + contradicted) / static_cast<float>(all);
+  }
+};
+
+/// Looks up the centres of the model's local GPs that face the camera.
+template <class Field>
+[[nodiscard]] ModelAgreement Compare(const Field& field, const PoseObjectFromCamera& T_oc,
+                                     const PinholeCamera& camera,
+                                     const DepthReader& depth) noexcept {
+  constexpr float kFewestCosine = 0.3F;
+  constexpr float kToleranceFloor_m = 0.006F;
+  constexpr float kTolerancePerMetre = 0.01F;
+  const PoseCameraFromObject T_co = T_oc.Inverse();
+  const Vec3& eye_o = T_oc.translation();
+  ModelAgreement agreement;
+  field.store().ForEach([&](auto, const auto& cluster) {
+    const Vec3 to_eye = eye_o - cluster.centroid_m;
+    if (cluster.mean_normal.dot(to_eye) < kFewestCosine * to_eye.norm()) return;
+    const Vec3 x_c = T_co * cluster.centroid_m;
+    if (!(x_c.z() > 0.0F)) return;
+    const Vec2 px = camera.Project(x_c);
+    if (!(px.x() >= 0.0F && px.y() >= 0.0F && px.x() < static_cast<float>(depth.width_px() - 1) &&
+          px.y() < static_cast<float>(depth.height_px() - 1))) {
+      ++agreement.outside;
+      return;
+    }
+    const float depth_m =
+        depth.At(static_cast<int>(std::lround(px.x())), static_cast<int>(std::lround(px.y())));
+    const float tolerance_m = kToleranceFloor_m + kTolerancePerMetre * x_c.z();
+    if (depth_m <= 0.0F || depth_m < x_c.z() - tolerance_m) {
+      ++agreement.hidden;
+    } else if (depth_m > x_c.z() + tolerance_m) {
+      ++agreement.contradicted;
+    } else {
+      ++agreement.seen;
+    }
+  });
+  return agreement;
+}
+
+}  // namespace disflow
