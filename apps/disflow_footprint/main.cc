@@ -30,8 +30,16 @@ struct Segmenter {
 };
 template <class L>
 struct Sampler {
+  static constexpr std::size_t kBytes = sizeof(disflow::SurfaceSampler<L>);
+};
+template <class L>
+struct Scratch {
   static constexpr std::size_t kBytes =
-      sizeof(disflow::SurfaceSampler<L>) + sizeof(typename disflow::SurfaceSampler<L>::Samples);
+      sizeof(disflow::StageScratch<disflow::Segmenter<L>, disflow::SurfaceSampler<L>>);
+};
+template <class L>
+struct Samples {
+  static constexpr std::size_t kBytes = sizeof(typename disflow::SurfaceSampler<L>::Samples);
 };
 template <class L>
 struct Edges {
@@ -74,14 +82,16 @@ int main() {
   std::printf("| %-44s | %9s | %9s | %9s |\n", "bytes", "Micro", "Edge", "Dense");
   std::printf("|---|---:|---:|---:|\n");
   PrintPart<ObjectMask>("object mask");
-  PrintPart<Segmenter>("segmentation: pixel runs and two image rows");
-  PrintPart<Sampler>("pixel blocks, planes and surface samples");
+  PrintPart<Scratch>("scratch: segmentation, then pixel blocks");
+  PrintPart<Samples>("surface samples of the frame");
   PrintPart<Edges>("occluding edges: frame and model");
   PrintPart<Octree>("octree");
   PrintPart<Clusters>("clusters with their local GPs");
   PrintPart<Gp>("GP training workspace");
   PrintPart<Registration>("registration");
   PrintPart<Whole>("**Tracker, all of the above and the rest**");
+  PrintPart<Segmenter>("segmentation (is in the scratch)");
+  PrintPart<Sampler>("pixel blocks (are in the scratch)");
   PrintPart<Cluster>("one cluster (is in the above)");
   PrintPart<Surface>("workspace for surface extraction (optional)");
   return 0;

@@ -17,8 +17,8 @@ struct Edge {
   static constexpr int kMaxBlocks = 8192;  ///< Pixel blocks that cover the object's bounding box.
   static constexpr int kMaxSurfaceSamples = 2048;   ///< M, surface samples per frame.
   static constexpr int kMaxEdgePoints = 192;        ///< Occluding-edge points per frame.
-  static constexpr int kMaxNodes = 2048;            ///< Octree nodes.
-  static constexpr int kMaxClusters = 1024;         ///< Local GPs.
+  static constexpr int kMaxNodes = 1024;            ///< Octree nodes.
+  static constexpr int kMaxClusters = 640;          ///< Local GPs.
   static constexpr int kMaxSamplesPerCluster = 24;  ///< Samples kept by one local GP.
   static constexpr int kMaxTrainingSamples = 16;    ///< N, samples that one local GP is trained on.
   static constexpr int kMaxModelEdges = 512;        ///< Occluding-edge samples in the model.
@@ -34,7 +34,7 @@ struct Micro {
   static constexpr int kMaxBlocks = 1536;
   static constexpr int kMaxSurfaceSamples = 512;
   static constexpr int kMaxEdgePoints = 96;
-  static constexpr int kMaxNodes = 640;
+  static constexpr int kMaxNodes = 512;
   static constexpr int kMaxClusters = 320;
   static constexpr int kMaxSamplesPerCluster = 20;
   static constexpr int kMaxTrainingSamples = 12;

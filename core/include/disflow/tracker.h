@@ -14,6 +14,7 @@
 #include "disflow/flow/tracking_monitor.h"
 #include "disflow/flow/twist_filter.h"
 #include "disflow/limits.h"
+#include "disflow/memory/stage_scratch.h"
 #include "disflow/stage_stopwatch.h"
 #include "disflow/status.h"
 
@@ -101,8 +102,7 @@ class Tracker {
   Mat6 registered_covariance_ = Mat6::Zero();  ///< Of the last registered pose.
 
   typename Segmenter<Limits>::Mask object_mask_;
-  Segmenter<Limits> segmenter_;
-  SurfaceSampler<Limits> sampler_;
+  StageScratch<Segmenter<Limits>, SurfaceSampler<Limits>> scratch_;
   typename SurfaceSampler<Limits>::Samples samples_;
   typename EdgeSampler<Limits>::Edges edges_;
   Registration<Limits> registration_;

@@ -123,18 +123,19 @@ Status Tracker<Limits>::Observe(const DepthFrame& frame, Estimate& estimate,
   const auto explains = [this](const Vec3& x_c) {
     return IsNearSurface(field_, T_oc_ * x_c, config_.segmenter.explained_m);
   };
-  const Status segmented = segmenter_.Segment(frame, config_.segmenter, prior, explains,
-                                              object_mask_, estimate.rejected);
+  const Status segmented = scratch_.template Begin<Segmenter<Limits>>().Segment(
+      frame, config_.segmenter, prior, explains, object_mask_, estimate.rejected);
   if (segmented != Status::kOk) return segmented;
   const ErodedMask interior(object_mask_, config_.sampler.border_px);
   stopwatch.Mark(Stage::kSegment);
 
   const DepthReader depth(frame.depth, config_.segmenter.min_range_m,
                           config_.segmenter.max_range_m);
-  sampler_.Sample(depth, frame.camera, interior, config_.sampler, samples_, estimate.rejected);
-  EdgeSampler<Limits>::Sample(depth, frame.camera, object_mask_, sampler_, config_.sampler, edges_);
+  auto& sampler = scratch_.template Begin<SurfaceSampler<Limits>>();
+  sampler.Sample(depth, frame.camera, interior, config_.sampler, samples_, estimate.rejected);
+  EdgeSampler<Limits>::Sample(depth, frame.camera, object_mask_, sampler, config_.sampler, edges_);
   estimate.samples = static_cast<std::uint16_t>(samples_.size());
-  estimate.inverse_depth_std_per_m = sampler_.noise_std();
+  estimate.inverse_depth_std_per_m = sampler.noise_std();
   stopwatch.Mark(Stage::kSample);
   if (samples_.empty()) return Status::kNoValidDepth;
   return samples_.size() < config_.monitor.min_samples ? Status::kTooFewSamples : Status::kOk;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 
 #include "disflow/config.h"
 #include "disflow/depth/curved_window.h"
@@ -22,18 +23,25 @@ namespace disflow {
 /// (see inverse_depth_block.h). Where the whole window does not fit one plane, windows to one side
 /// are tried, so that creases keep their normals; what fits nothing is a flying pixel or clutter
 /// and is counted and dropped.
+///
+/// The grid of blocks covers the object's bounding box; sums are kept only for blocks that hold
+/// pixels.
 template <class Limits>
 class SurfaceSampler {
  public:
   using Samples = FixedVector<SurfaceSample, Limits::kMaxSurfaceSamples>;
 
   /// @param interior Object pixels away from the outline.
+  /// @param samples Must not change as long as SurfaceAt() is asked.
   template <class Mask>
   void Sample(const DepthReader& depth, const PinholeCamera& camera, const Mask& interior,
               const SamplerConfig& config, Samples& samples, Counters& counters) noexcept {
     samples.clear();
-    LayOutGrid(interior, config);
-    SumBlocks(depth, interior, counters);
+    samples_ = &samples;
+    ChooseBlockSize(interior, config);
+    int without_depth = 0;
+    while (!LayOutGrid(interior.box()) || !SumBlocks(depth, interior, without_depth)) ++block_px_;
+    counters.pixels_out_of_range += static_cast<std::uint32_t>(without_depth);
     noise_std_ = config.inverse_depth_std_per_m > 0.0F
                      ? config.inverse_depth_std_per_m
                      : std::max(EstimateNoise(), config.min_inverse_depth_std_per_m);
@@ -56,7 +64,10 @@ class SurfaceSampler {
     const int column = (u - origin_u_) / block_px_;
     const int row = (v - origin_v_) / block_px_;
     if (u < origin_u_ || v < origin_v_ || column >= columns_ || row >= rows_) return {};
-    return surfaces_[Index(column, row)];
+    const std::uint16_t sample = sample_of_[grid_[Index(column, row)]];
+    if (sample == kNoSample) return {};
+    const SurfaceSample& s = (*samples_)[sample];
+    return {true, s.normal, s.normal.dot(s.position_m), s.normal_variance, s.cos_incidence};
   }
 
   [[nodiscard]] float noise_std() const noexcept { return noise_std_; }
@@ -81,51 +92,77 @@ class SurfaceSampler {
     return static_cast<std::size_t>(row * columns_ + column);
   }
   [[nodiscard]] const PixelMoments& block(int column, int row) const noexcept {
-    return blocks_[Index(column, row)];
+    return moments_[grid_[Index(column, row)]];
   }
 
+  /// The smallest blocks for which the samples are not too many.
   template <class Mask>
-  void LayOutGrid(const Mask& interior, const SamplerConfig& config) noexcept {
-    const PixelBox& box = interior.box();
+  void ChooseBlockSize(const Mask& interior, const SamplerConfig& config) noexcept {
     const float pixels_per_block =
         static_cast<float>(interior.count()) / static_cast<float>(config.target_blocks);
     block_px_ = std::clamp(static_cast<int>(std::lround(std::sqrt(pixels_per_block))),
                            config.min_block_px, config.max_block_px);
-    do {
-      columns_ = (box.width() + block_px_ - 1) / block_px_;
-      rows_ = (box.height() + block_px_ - 1) / block_px_;
-      // Partly covered blocks yield samples too: leave them some room.
-      const float expected_samples =
-          1.2F * static_cast<float>(interior.count()) / static_cast<float>(block_px_ * block_px_);
-      if (columns_ * rows_ <= Limits::kMaxBlocks &&
-          expected_samples <= static_cast<float>(Limits::kMaxSurfaceSamples)) {
-        break;
-      }
-    } while (++block_px_ > 0);
-    origin_u_ = box.u_min;
-    origin_v_ = box.v_min;
-    std::fill_n(blocks_.begin(), columns_ * rows_, PixelMoments{});
-    std::fill_n(surfaces_.begin(), columns_ * rows_, LocalSurface{});
+    // Partly covered blocks yield samples too: leave them some room.
+    while (1.2F * static_cast<float>(interior.count()) >
+           static_cast<float>(Limits::kMaxSurfaceSamples * block_px_ * block_px_))
+      ++block_px_;
   }
 
+  /// @return false if the grid has too many blocks.
+  [[nodiscard]] bool LayOutGrid(const PixelBox& box) noexcept {
+    columns_ = (box.width() + block_px_ - 1) / block_px_;
+    rows_ = (box.height() + block_px_ - 1) / block_px_;
+    if (columns_ * rows_ > Limits::kMaxBlocks) return false;
+    origin_u_ = box.u_min;
+    origin_v_ = box.v_min;
+    std::fill_n(grid_.begin(), columns_ * rows_, kEmptyBlock);
+    moments_[kEmptyBlock] = PixelMoments{};
+    sample_of_[kEmptyBlock] = kNoSample;
+    filled_ = 1;
+    return true;
+  }
+
+  /// @return false if too many blocks hold pixels.
   template <class Mask>
-  void SumBlocks(const DepthReader& depth, const Mask& interior, Counters& counters) noexcept {
+  [[nodiscard]] bool SumBlocks(const DepthReader& depth, const Mask& interior,
+                               int& without_depth) noexcept {
+    without_depth = 0;
+    bool fits = true;
     const float half = 0.5F * static_cast<float>(block_px_ - 1);
     const PixelBox& box = interior.box();
-    for (int v = box.v_min; v < box.v_max; ++v) {
+    for (int v = box.v_min; v < box.v_max && fits; ++v) {
       const int row = (v - origin_v_) / block_px_;
       const float dv = static_cast<float>(v - origin_v_ - row * block_px_) - half;
+      int column = 0;
+      int u_begin = origin_u_;
       interior.ForEachInRow(v, [&](int u) {
         const float depth_m = depth.At(u, v);
         if (depth_m <= 0.0F) {
-          ++counters.pixels_out_of_range;
+          ++without_depth;
           return;
         }
-        const int column = (u - origin_u_) / block_px_;
-        const float du = static_cast<float>(u - origin_u_ - column * block_px_) - half;
-        blocks_[Index(column, row)].Add(du, dv, 1.0F / depth_m);
+        for (; u >= u_begin + block_px_; u_begin += block_px_) ++column;
+        PixelMoments* moments = FillBlock(Index(column, row));
+        if (moments == nullptr) {
+          fits = false;
+        } else {
+          moments->Add(static_cast<float>(u - u_begin) - half, dv, 1.0F / depth_m);
+        }
       });
     }
+    return fits;
+  }
+
+  /// The sums of a block that holds pixels; null if there is no room for more of them.
+  [[nodiscard]] PixelMoments* FillBlock(std::size_t place) noexcept {
+    std::uint16_t& index = grid_[place];
+    if (index == kEmptyBlock) {
+      if (filled_ == kMaxFilledBlocks) return nullptr;
+      index = static_cast<std::uint16_t>(filled_++);
+      moments_[index] = PixelMoments{};
+      sample_of_[index] = kNoSample;
+    }
+    return &moments_[index];
   }
 
   [[nodiscard]] PixelMoments MergeWindow(int column, int row, const Window& window) const noexcept {
@@ -182,12 +219,15 @@ class SurfaceSampler {
       return;
     }
     SurfaceSample sample;
-    LocalSurface& surface = surfaces_[Index(column, row)];
-    if (!MakeSample(camera, config, column, row, own, plane, bend, sample, surface)) {
+    if (!MakeSample(camera, config, column, row, own, plane, bend, sample)) {
       ++counters.blocks_grazing;
       return;
     }
-    if (!samples.push_back(sample)) ++counters.samples_dropped;
+    if (!samples.push_back(sample)) {
+      ++counters.samples_dropped;
+      return;
+    }
+    sample_of_[grid_[Index(column, row)]] = static_cast<std::uint16_t>(samples.size() - 1);
   }
 
   /// @param bend Of the surface from the plane at the block [1/m].
@@ -239,8 +279,8 @@ class SurfaceSampler {
 
   [[nodiscard]] bool MakeSample(const PinholeCamera& camera, const SamplerConfig& config,
                                 int column, int row, const PixelMoments& own,
-                                const InverseDepthPlane& plane, float bend, SurfaceSample& sample,
-                                LocalSurface& surface) const noexcept {
+                                const InverseDepthPlane& plane, float bend,
+                                SurfaceSample& sample) const noexcept {
     const float half = 0.5F * static_cast<float>(block_px_ - 1);
     const float du = own.u / own.n;
     const float dv = own.v / own.n;
@@ -273,17 +313,26 @@ class SurfaceSampler {
     sample.normal_variance =
         0.5F * effective_std * effective_std *
         (plane.inverse_uu * tilt_u * tilt_u + plane.inverse_vv * tilt_v * tilt_v);
-    surface = {true, sample.normal, sample.normal.dot(sample.position_m), sample.normal_variance,
-               sample.cos_incidence};
     return true;
   }
 
   static constexpr int kNoiseBlocks = 512;
   static constexpr float kRipple =
       0.05F;  ///< Third order allowed, as share of the second, squared.
-  std::array<PixelMoments, static_cast<std::size_t>(Limits::kMaxBlocks)> blocks_;
-  std::array<LocalSurface, static_cast<std::size_t>(Limits::kMaxBlocks)> surfaces_;
+
+  /// Full blocks and the partly covered ones along the outline.
+  static constexpr int kMaxFilledBlocks = Limits::kMaxSurfaceSamples * 5 / 4;
+  static_assert(kMaxFilledBlocks <= 65536 && Limits::kMaxSurfaceSamples < 65535);
+  static constexpr std::uint16_t kEmptyBlock = 0;
+  static constexpr std::uint16_t kNoSample = 65535;
+
+  /// Per block of the grid where its sums are; blocks without pixels share the first.
+  std::array<std::uint16_t, static_cast<std::size_t>(Limits::kMaxBlocks)> grid_;
+  std::array<PixelMoments, static_cast<std::size_t>(kMaxFilledBlocks)> moments_;
+  std::array<std::uint16_t, static_cast<std::size_t>(kMaxFilledBlocks)> sample_of_;
   std::array<float, static_cast<std::size_t>(kNoiseBlocks)> residuals_;
+  const Samples* samples_ = nullptr;  ///< Of the last frame, for SurfaceAt().
+  int filled_ = 0;
   int origin_u_ = 0;
   int origin_v_ = 0;
   int columns_ = 0;

@@ -24,8 +24,6 @@ template <int kMaxSamples, int kMaxTrainingSamples>
 struct Cluster {
   FixedVector<ModelSample, kMaxSamples> samples;
   LocalGp<kMaxTrainingSamples> gp;
-  Vec3 position_sum_m;
-  Vec3 normal_sum;
   Vec3 centroid_m;   ///< Mean of the samples' positions.
   Vec3 mean_normal;  ///< Unit mean of the samples' normals.
   OctreeCell cell;
@@ -42,8 +40,6 @@ struct Cluster {
     cell = in_cell;
     samples.clear();
     gp.Clear();
-    position_sum_m.setZero();
-    normal_sum.setZero();
     leaf = in_leaf;
     next = next_in_leaf;
     used = true;
@@ -53,8 +49,8 @@ struct Cluster {
   }
 
   void UpdateMeans() noexcept {
-    position_sum_m.setZero();
-    normal_sum.setZero();
+    Vec3 position_sum_m = Vec3::Zero();
+    Vec3 normal_sum = Vec3::Zero();
     for (const ModelSample& sample : samples) {
       position_sum_m += sample.position_m;
       normal_sum += sample.normal;

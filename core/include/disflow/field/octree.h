@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "disflow/memory/fixed_vector.h"
 #include "disflow/types.h"
 
 namespace disflow {
@@ -23,7 +24,8 @@ struct OctreeCell {
 /// Octree over a cube around the object frame's origin, in a bounded pool of nodes (section IV,
 /// "Scalability via Octree"). Leaves are cells of fixed size that head a list of local GPs; the two
 /// levels above hold running averages of the samples below them (facets), which give a coarse
-/// surface for far starts.
+/// surface for far starts. Facets come from a smaller pool; where it is exhausted the coarse
+/// surface has a hole.
 template <int kMaxNodes>
 class Octree {
   static_assert(kMaxNodes < kNoHandle);
@@ -33,6 +35,9 @@ class Octree {
   static constexpr int kCellsPerEdge = 1 << kDepth;
   static constexpr int kFacetsPerNode = 3;
   static constexpr int kCoarseLevels = 2;
+  /// Nodes with facets. Surface fills about four of a node's eight children, so that four of five
+  /// nodes are leaves.
+  static constexpr int kMaxCoarseNodes = (kMaxNodes + 2) / 3;
 
   using Cell = OctreeCell;
 
@@ -53,6 +58,9 @@ class Octree {
     free_head_ = 0;
     used_ = 0;
     root_ = Take(kNoHandle, 0);
+    free_facets_.clear();
+    for (int i = kMaxCoarseNodes - 1; i >= 0; --i)
+      (void)free_facets_.push_back(static_cast<Handle>(i));
   }
 
   [[nodiscard]] float cell_size_m() const noexcept { return cell_size_m_; }
@@ -117,6 +125,7 @@ class Octree {
     while (node != root_ && node != kNoHandle && IsEmpty(at(node))) {
       const Handle parent = at(node).parent;
       at(parent).child[at(node).octant] = kNoHandle;
+      if (at(node).facets != kNoHandle) (void)free_facets_.push_back(at(node).facets);
       at(node).parent = free_head_;
       free_head_ = node;
       --used_;
@@ -179,10 +188,10 @@ class Octree {
   [[nodiscard]] const Facet* FindFacet(const Cell& cell, int up, const Vec3& normal,
                                        float min_cos) const noexcept {
     const Handle node = FindAtLevel(cell, kDepth - up);
-    if (node == kNoHandle) return nullptr;
+    if (node == kNoHandle || at(node).facets == kNoHandle) return nullptr;
     const Facet* best = nullptr;
     float best_cos = min_cos;
-    for (const Facet& facet : facets_[node]) {
+    for (const Facet& facet : facets_[at(node).facets]) {
       if (facet.count <= 0.0F) continue;
       const float cosine = facet.normal_sum.dot(normal) / facet.normal_sum.norm();
       if (cosine > best_cos) {
@@ -198,6 +207,7 @@ class Octree {
     std::array<Handle, 8> child;
     Handle parent;  ///< Next free node while in the free list.
     Handle first_cluster;
+    Handle facets;        ///< Of a coarse node with samples below, else kNoHandle.
     std::uint8_t octant;  ///< Place among the parent's children.
   };
 
@@ -235,17 +245,26 @@ class Octree {
     at(node).child.fill(kNoHandle);
     at(node).parent = parent;
     at(node).first_cluster = kNoHandle;
+    at(node).facets = kNoHandle;
     at(node).octant = octant;
-    facets_[node].fill(EmptyFacet());
     return node;
+  }
+
+  [[nodiscard]] bool TakeFacets(Handle node) noexcept {
+    if (free_facets_.empty()) return false;
+    at(node).facets = free_facets_.back();
+    free_facets_.truncate(free_facets_.size() - 1);
+    facets_[at(node).facets].fill(EmptyFacet());
+    return true;
   }
 
   [[nodiscard]] Facet* SelectFacet(Handle node, const Vec3& normal, float crease_cos,
                                    bool may_create) noexcept {
+    if (at(node).facets == kNoHandle && !(may_create && TakeFacets(node))) return nullptr;
     Facet* unused = nullptr;
     Facet* best = nullptr;
     float best_cos = crease_cos;
-    for (Facet& facet : facets_[node]) {
+    for (Facet& facet : facets_[at(node).facets]) {
       if (facet.count <= 0.0F) {
         if (unused == nullptr) unused = &facet;
         continue;
@@ -318,8 +337,9 @@ class Octree {
 
   std::array<Node, static_cast<std::size_t>(kMaxNodes)> nodes_;
   std::array<std::array<Facet, static_cast<std::size_t>(kFacetsPerNode)>,
-             static_cast<std::size_t>(kMaxNodes)>
+             static_cast<std::size_t>(kMaxCoarseNodes)>
       facets_;
+  FixedVector<Handle, kMaxCoarseNodes> free_facets_;
   float cell_size_m_ = 0.0F;
   float inverse_cell_size_ = 0.0F;
   Handle root_ = 0;

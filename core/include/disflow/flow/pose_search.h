@@ -119,8 +119,9 @@ class PoseSearch {
     const Vec3& eye_o = T_oc.translation();
     field.store().ForEach([&](Handle, const auto& cluster) {
       if (cluster.mean_normal.dot(eye_o - cluster.centroid_m) <= 0.0F) return;
-      sum += cluster.position_sum_m;
-      count += static_cast<float>(cluster.samples.size());
+      const auto samples = static_cast<float>(cluster.samples.size());
+      sum += samples * cluster.centroid_m;
+      count += samples;
     });
     if (count < 1.0F) return T_oc;
     const Vec3 shift = sum / count - T_oc * registration.center_c();
