@@ -5,24 +5,15 @@
 
 #include "disflow/field/local_gp.h"
 #include "disflow/field/octree.h"
-#include "disflow/memory/fixed_vector.h"
+#include "disflow/field/sample_list.h"
 
 namespace disflow {
-
-/// A surface sample of the model: the running average of the observations near it.
-struct ModelSample {
-  Vec3 position_m;
-  Vec3 normal;
-  float variance_m2;      ///< Of the position along the normal.
-  float normal_variance;  ///< Per tangential component [rad^2].
-  std::uint16_t observations;
-};
 
 /// One side of the surface within one octree cell: its samples and the local GP trained on them and
 /// on those nearby.
 template <int kMaxSamples, int kMaxTrainingSamples>
 struct Cluster {
-  FixedVector<ModelSample, kMaxSamples> samples;
+  SampleList<kMaxSamples> samples;
   LocalGp<kMaxTrainingSamples> gp;
   Vec3 centroid_m;   ///< Mean of the samples' positions.
   Vec3 mean_normal;  ///< Unit mean of the samples' normals.
@@ -36,9 +27,13 @@ struct Cluster {
   /// before: errors of the pose add up along that chain.
   float generation;
 
-  void Start(const OctreeCell& in_cell, Handle in_leaf, Handle next_in_leaf) noexcept {
+  /// @param cell_min_m Corner of the cell.
+  void Start(const OctreeCell& in_cell, const Vec3& cell_min_m, float cell_size_m, Handle in_leaf,
+             Handle next_in_leaf) noexcept {
+    // Samples wander while they are averaged, but not across the next cell.
+    constexpr float kReach = 2.0F;
     cell = in_cell;
-    samples.clear();
+    samples.Start(cell_min_m + Vec3::Constant(0.5F * cell_size_m), kReach * cell_size_m);
     gp.Clear();
     leaf = in_leaf;
     next = next_in_leaf;

@@ -119,7 +119,7 @@ class ClusterStore {
     const Handle handle = free_head_;
     free_head_ = clusters_[handle].next;
     ++used_;
-    clusters_[handle].Start(cell, leaf, tree_.head(leaf));
+    clusters_[handle].Start(cell, tree_.CellMin(cell), tree_.cell_size_m(), leaf, tree_.head(leaf));
     tree_.set_head(leaf, handle);
     return handle;
   }

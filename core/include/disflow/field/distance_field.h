@@ -112,10 +112,10 @@ class DistanceField {
       }
     }
     Handle owner = kNoHandle;
-    ModelSample* nearest = FindSample(observation, owner);
-    if (nearest != nullptr) {
+    const int nearest = FindSample(observation, owner);
+    if (owner != kNoHandle) {
       store_[owner].last_frame = frame;
-      return Merge(observation, owner, *nearest);
+      return Merge(observation, owner, nearest);
     }
     return Add(observation, frame, counters);
   }
@@ -136,8 +136,8 @@ class DistanceField {
   [[nodiscard]] static float TangentialDistanceSquared(const ClusterType& cluster,
                                                        const Vec3& x_m) noexcept {
     float best = 1e9F;
-    for (const ModelSample& sample : cluster.samples) {
-      const Vec3 offset = x_m - sample.position_m;
+    for (int i = 0; i < cluster.samples.size(); ++i) {
+      const Vec3 offset = x_m - cluster.samples.position_m(i);
       const float along_normal = cluster.mean_normal.dot(offset);
       best = std::fmin(best, offset.squaredNorm() - along_normal * along_normal);
     }
@@ -170,31 +170,34 @@ class DistanceField {
     match.variance_m2 = prior_std_m * prior_std_m;
   }
 
-  /// The sample into which an observation is to be averaged, or null.
-  [[nodiscard]] ModelSample* FindSample(const SurfaceSample& observation, Handle& owner) noexcept {
+  /// The sample into which an observation is to be averaged, by its owner and its index there.
+  /// @param owner kNoHandle if there is none.
+  [[nodiscard]] int FindSample(const SurfaceSample& observation, Handle& owner) const noexcept {
     constexpr float kSimilarNormalCos = 0.8F;
-    ModelSample* nearest = nullptr;
+    owner = kNoHandle;
+    int nearest = 0;
     float nearest_squared = config_.merge_radius_m * config_.merge_radius_m;
-    store_.ForEachNear(observation.position_m, config_.merge_radius_m,
-                       [&](Handle handle, const ClusterType& cluster) {
-                         if (cluster.mean_normal.dot(observation.normal) < 0.5F) return;
-                         for (ModelSample& sample : store_[handle].samples) {
-                           const float squared =
-                               (sample.position_m - observation.position_m).squaredNorm();
-                           if (squared < nearest_squared &&
-                               sample.normal.dot(observation.normal) > kSimilarNormalCos) {
-                             nearest_squared = squared;
-                             nearest = &sample;
-                             owner = handle;
-                           }
-                         }
-                       });
+    store_.ForEachNear(
+        observation.position_m, config_.merge_radius_m,
+        [&](Handle handle, const ClusterType& cluster) {
+          if (cluster.mean_normal.dot(observation.normal) < 0.5F) return;
+          for (int i = 0; i < cluster.samples.size(); ++i) {
+            const float squared =
+                (cluster.samples.position_m(i) - observation.position_m).squaredNorm();
+            if (squared < nearest_squared &&
+                cluster.samples[i].normal.dot(observation.normal) > kSimilarNormalCos) {
+              nearest_squared = squared;
+              nearest = i;
+              owner = handle;
+            }
+          }
+        });
     return nearest;
   }
 
   /// Kalman update of a sample's position along its normal, and of its normal.
-  [[nodiscard]] Fusion Merge(const SurfaceSample& observation, Handle owner,
-                             ModelSample& sample) noexcept {
+  [[nodiscard]] Fusion Merge(const SurfaceSample& observation, Handle owner, int index) noexcept {
+    ModelSample sample = store_[owner].samples[index];
     const bool better = observation.fused_variance_m2 < 0.25F * sample.variance_m2;
     if (sample.observations >= config_.freeze_after && !better) return Fusion::kFrozen;
     const Vec3 offset = observation.position_m - sample.position_m;
@@ -212,6 +215,7 @@ class DistanceField {
         (sample.normal + normal_gain * (observation.normal - sample.normal)).normalized();
     sample.normal_variance *= 1.0F - normal_gain;
     if (sample.observations < 65535) ++sample.observations;
+    store_[owner].samples.Set(index, sample);
     MarkDirty(sample, owner, 1.0F);
     return Fusion::kMerged;
   }

@@ -64,19 +64,20 @@ class DistanceQuerier {
     if (!local.found) return QueryFar(x_m);
     DistanceQuery query{local.distance_m, local.gradient,
                         variance_.At(local.cluster, x_m, local.nearest_m), false};
-    const float height_m = local.nearest->normal.dot(x_m - local.nearest->position_m);
+    const ModelSample nearest = field_.store()[local.cluster].samples[local.nearest];
+    const float height_m = nearest.normal.dot(x_m - nearest.position_m);
     const float tangential_m2 = local.nearest_m * local.nearest_m - height_m * height_m;
     query.in_bounds = tangential_m2 <= support_radius_m_ * support_radius_m_;
     // The GP knows the shape near the surface, the nearest sample the distance far from it; one
     // fades into the other.
     const float share = (local.nearest_m - 0.5F * near_m) / (0.5F * near_m);
     if (share <= 0.0F) return query;
-    return Mix(query, FromSample(x_m, *local.nearest, local.nearest_m, query),
+    return Mix(query, FromSample(x_m, nearest, local.nearest_m, query),
                share * share * (3.0F - 2.0F * share));
   }
 
   [[nodiscard]] DistanceQuery QueryFar(const Vec3& x_m) noexcept {
-    const ModelSample* nearest = nullptr;
+    ModelSample nearest;
     Handle owner = kNoHandle;
     float squared_m2 = 1e30F;
     const auto& store = field_.store();
@@ -86,22 +87,22 @@ class DistanceQuerier {
           const float squared = (sample.position_m - x_m).squaredNorm();
           if (squared >= bound_squared_m2) continue;
           bound_squared_m2 = squared;
-          nearest = &sample;
+          nearest = sample;
           owner = h;
         }
       }
     });
-    if (nearest == nullptr) return {};
+    if (owner == kNoHandle) return {};
     const float nearest_m = std::sqrt(squared_m2);
     // No surface lies between x and its nearest sample: x is on the same side as a point just off
     // that sample.
     const Vec3 beside_m =
-        nearest->position_m + (x_m - nearest->position_m) * (spacing_m_ / nearest_m);
+        nearest.position_m + (x_m - nearest.position_m) * (spacing_m_ / nearest_m);
     surface_.Gather(beside_m, beside_m, 2.0F * spacing_m_);
     const typename Surface::Value local = surface_.Evaluate(beside_m);
     const DistanceQuery beside{local.distance_m, local.gradient,
                                variance_.At(owner, beside_m, spacing_m_), false};
-    return FromSample(x_m, *nearest, nearest_m, beside);
+    return FromSample(x_m, nearest, nearest_m, beside);
   }
 
   /// Distance to the disc of surface around a sample.

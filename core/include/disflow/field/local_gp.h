@@ -4,11 +4,14 @@
 #include <Eigen/Core>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <span>
 
 #include "disflow/field/cholesky.h"
 #include "disflow/field/fast_math.h"
 #include "disflow/field/matern32.h"
+#include "disflow/memory/fixed_point.h"
+#include "disflow/memory/packed_variance.h"
 #include "disflow/types.h"
 
 namespace disflow {
@@ -49,9 +52,9 @@ class LocalGp {
   void Mean(const Vec3& x_m, float& distance_m, Vec3& gradient) const noexcept {
     const Vec3 offset_m = x_m - center_m_;
     const Vec3 p = scale_ * offset_m;
-    const Row ex = p.x() - position_[0];
-    const Row ey = p.y() - position_[1];
-    const Row ez = p.z() - position_[2];
+    const Row ex = Offsets(p, 0);
+    const Row ey = Offsets(p, 1);
+    const Row ez = Offsets(p, 2);
     constexpr float kTiny = 1e-12F;  // keeps 1/r finite at a sample, where its term vanishes
     const Row r_squared = ex * ex + ey * ey + ez * ez + kTiny;
     Row inverse_r;
@@ -74,13 +77,36 @@ class LocalGp {
   template <int kSamples>
   friend struct GpWorkspace;
 
-  std::array<Row, 3> position_;  ///< p of the samples, unused ones zero.
-  std::array<Row, 4>
-      weight_;       ///< alpha = (K + sigma^2 I)^-1 (y - m), value and gradient; unused ones zero.
-  Row value_noise_;  ///< Scaled variance of each value constraint, for refactoring.
-  Row normal_noise_;
+  template <class T>
+  using PerSample = std::array<T, static_cast<std::size_t>(kMaxSamples)>;
+
+  /// p - p_i along one axis.
+  [[nodiscard]] Row Offsets(const Vec3& p, int axis) const noexcept {
+    Row offsets;
+    const auto& steps = position_[static_cast<std::size_t>(axis)];
+    for (int i = 0; i < kMaxSamples; ++i)
+      offsets.data()[i] = p[axis] - step_ * static_cast<float>(steps[static_cast<std::size_t>(i)]);
+    return offsets;
+  }
+  /// p_i
+  [[nodiscard]] Vec3 Position(int i) const noexcept {
+    const auto k = static_cast<std::size_t>(i);
+    return step_ * Vec3(static_cast<float>(position_[0][k]), static_cast<float>(position_[1][k]),
+                        static_cast<float>(position_[2][k]));
+  }
+
+  /// p of the samples in steps, unused ones zero. Rounded before the GP is trained, which thus
+  /// knows where its samples are.
+  std::array<PerSample<std::int16_t>, 3> position_;
+  /// Scaled variances of the constraints, for refactoring.
+  PerSample<PackedVariance> value_noise_;
+  PerSample<PackedVariance> normal_noise_;
+  /// alpha = (K + sigma^2 I)^-1 (y - m), value and gradient; unused ones zero. In full precision:
+  /// large numbers of both signs that nearly cancel.
+  std::array<Row, 4> weight_;
   Vec3 center_m_;
   Vec3 mean_normal_;
+  float step_;               ///< Of position_, without unit like p.
   float scale_;              ///< s = sqrt(3) / length_scale [1/m]
   float amplitude_squared_;  ///< a^2
   float surface_variance_m2_;
@@ -107,18 +133,26 @@ struct GpWorkspace {
     gp.amplitude_squared_ = hyper.prior_gradient_std * hyper.prior_gradient_std;
     gp.center_m_ = center_m;
     gp.mean_normal_ = mean_normal;
-    for (auto& row : gp.position_) row.setZero();
+    for (auto& row : gp.position_) row.fill(0);
     for (auto& row : gp.weight_) row.setZero();
-    gp.value_noise_.setZero();
-    gp.normal_noise_.setZero();
+    float farthest_m = 0.0F;
+    for (const GpTrainingSample& sample : samples) {
+      if (!IsUsable(sample)) return false;
+      farthest_m = std::fmax(farthest_m, (sample.position_m - center_m).cwiseAbs().maxCoeff());
+    }
+    gp.step_ = std::fmax(gp.scale_ * farthest_m, kSmallestReach) / kMostSteps;
+    if (!std::isfinite(gp.step_) || !std::isfinite(gp.scale_)) return false;
     Column y;
     for (int i = 0; i < count; ++i) {
       const GpTrainingSample& sample = samples[static_cast<std::size_t>(i)];
       const Vec3 offset_m = sample.position_m - center_m;
-      for (int axis = 0; axis < 3; ++axis)
-        gp.position_[static_cast<std::size_t>(axis)][i] = gp.scale_ * offset_m[axis];
-      gp.value_noise_[i] = gp.scale_ * gp.scale_ * sample.value_variance_m2;
-      gp.normal_noise_[i] = sample.normal_variance;
+      const auto place = static_cast<std::size_t>(i);
+      for (int axis = 0; axis < 3; ++axis) {
+        gp.position_[static_cast<std::size_t>(axis)][place] =
+            RoundToSteps(gp.scale_ * offset_m[axis] / gp.step_);
+      }
+      gp.value_noise_[place] = PackedVariance(gp.scale_ * gp.scale_ * sample.value_variance_m2);
+      gp.normal_noise_[place] = PackedVariance(sample.normal_variance);
       // Residuals of the constraints d = 0 and grad d = n about the prior plane.
       Set(y, i, -gp.scale_ * mean_normal.dot(offset_m), sample.normal - mean_normal);
     }
@@ -148,7 +182,7 @@ struct GpWorkspace {
     const Vec3 p = gp.scale_ * (x_m - gp.center_m_);
     std::array<Column, 4> k;
     for (int i = 0; i < gp.size_; ++i) {
-      const auto block = Matern32Block::At(p, Position(gp, i), gp.amplitude_squared_);
+      const auto block = Matern32Block::At(p, gp.Position(i), gp.amplitude_squared_);
       Set(k[0], i, block.ValueValue(), block.ValueGradient());
       const Mat3 gradient_gradient = block.GradientGradient();
       for (int axis = 0; axis < 3; ++axis) {
@@ -180,9 +214,13 @@ struct GpWorkspace {
 
  private:
   static constexpr float kSmallestShare = 1e-6F;
+  static constexpr float kSmallestReach = 1e-6F;  ///< Of p, for samples that are all in one place.
 
-  [[nodiscard]] static Vec3 Position(const Gp& gp, int i) noexcept {
-    return {gp.position_[0][i], gp.position_[1][i], gp.position_[2][i]};
+  /// What packing would hide: NaN, infinity, negative variances. Normals are not packed.
+  [[nodiscard]] static bool IsUsable(const GpTrainingSample& sample) noexcept {
+    return sample.position_m.allFinite() && sample.value_variance_m2 >= 0.0F &&
+           sample.normal_variance >= 0.0F && std::isfinite(sample.value_variance_m2) &&
+           std::isfinite(sample.normal_variance);
   }
   static void Set(Column& column, int i, float value, const Vec3& gradient) noexcept {
     const auto row = static_cast<std::size_t>(4 * i);
@@ -194,16 +232,18 @@ struct GpWorkspace {
   [[nodiscard]] bool FactoriseRows(const Gp& gp, int count) noexcept {
     for (int j = 0; j < count; ++j) {
       for (int i = j; i < count; ++i) {
-        const auto block =
-            Matern32Block::At(Position(gp, i), Position(gp, j), gp.amplitude_squared_);
+        const auto block = Matern32Block::At(gp.Position(i), gp.Position(j), gp.amplitude_squared_);
         Mat4 k;
         k(0, 0) = block.ValueValue();
         k.template block<1, 3>(0, 1) = block.ValueGradient().transpose();
         k.template block<3, 1>(1, 0) = -block.ValueGradient();
         k.template block<3, 3>(1, 1) = block.GradientGradient();
-        if (i == j)
-          k.diagonal() += Vec4(gp.value_noise_[i], gp.normal_noise_[i], gp.normal_noise_[i],
-                               gp.normal_noise_[i]);
+        if (i == j) {
+          const auto place = static_cast<std::size_t>(i);
+          const float normal_noise = gp.normal_noise_[place].value();
+          k.diagonal() +=
+              Vec4(gp.value_noise_[place].value(), normal_noise, normal_noise, normal_noise);
+        }
         for (int column = 0; column < 4; ++column) {
           for (int row = 0; row < 4; ++row) {
             factor[static_cast<std::size_t>((4 * j + column) * kRows + 4 * i + row)] =

@@ -26,8 +26,8 @@ class LocalSurface {
     float distance_m = 0.0F;
     Vec3 gradient = Vec3::Zero();  ///< Unit length.
     Handle cluster = kNoHandle;    ///< Holder of the nearest sample.
-    const ModelSample* nearest = nullptr;
-    float nearest_m = 0.0F;  ///< Distance to the nearest sample.
+    int nearest = 0;               ///< Which of its samples that is.
+    float nearest_m = 0.0F;        ///< Distance to the nearest sample.
   };
 
   /// @param min_observations Samples seen less often are left out.
@@ -48,7 +48,7 @@ class LocalSurface {
     store.tree().ForEachLeafInBox(
         low_m - margin, high_m + margin, [&](const OctreeCell&, Handle leaf) {
           for (Handle h = store.tree().head(leaf); h != kNoHandle; h = store[h].next) {
-            if (!IsStray(store[h])) (void)near_.push_back({h, nullptr, 0.0F});
+            if (!IsStray(store[h])) (void)near_.push_back({h, kNoSample, 0.0F});
           }
         });
   }
@@ -81,11 +81,12 @@ class LocalSurface {
   static constexpr int kMaxNear = 192;
   static constexpr int kMaxVoices = 12;
   static constexpr int kMaxSides = 4;
+  static constexpr int kNoSample = -1;
 
   /// A cluster near the point, and its sample nearest to it.
   struct Near {
     Handle handle;
-    const ModelSample* sample;
+    int sample;  ///< Its index, or kNoSample.
     float squared_m2;
   };
   using Voices = FixedVector<Near, kMaxVoices>;
@@ -127,17 +128,18 @@ class LocalSurface {
     const auto& store = field_.store();
     float best = reach_squared_m2_;
     for (Near& near : near_) {
-      near.sample = nullptr;
+      near.sample = kNoSample;
       near.squared_m2 = best + JoinReach();
       const ClusterType& cluster = store[near.handle];
       if (store.tree().DistanceSquaredToCell(x_m, cluster.cell) > near.squared_m2) continue;
-      for (const ModelSample& sample : cluster.samples) {
-        const float squared = (sample.position_m - x_m).squaredNorm();
-        if (squared >= near.squared_m2 || sample.observations < min_observations_) continue;
+      for (int i = 0; i < cluster.samples.size(); ++i) {
+        const float squared = (cluster.samples.position_m(i) - x_m).squaredNorm();
+        if (squared >= near.squared_m2 || cluster.samples[i].observations < min_observations_)
+          continue;
         near.squared_m2 = squared;
-        near.sample = &sample;
+        near.sample = i;
       }
-      if (near.sample == nullptr || near.squared_m2 >= best) continue;
+      if (near.sample == kNoSample || near.squared_m2 >= best) continue;
       best = near.squared_m2;
       value.found = true;
       value.cluster = near.handle;
@@ -149,7 +151,7 @@ class LocalSurface {
   /// The clusters that have a say, nearest first.
   void SelectVoices(float best_squared, Voices& voices) const noexcept {
     for (const Near& near : near_) {
-      if (near.sample == nullptr || near.squared_m2 >= best_squared + JoinReach()) continue;
+      if (near.sample == kNoSample || near.squared_m2 >= best_squared + JoinReach()) continue;
       if (voices.full()) {
         if (near.squared_m2 >= voices.back().squared_m2) continue;
         voices.truncate(kMaxVoices - 1);
