@@ -14,7 +14,7 @@ struct Edge {
   static constexpr int kMaxImageWidth = 1280;
   static constexpr int kMaxImageHeight = 720;
   static constexpr int kMaxRuns = 8192;    ///< Horizontal pixel runs on connected surfaces.
-  static constexpr int kMaxBlocks = 8192;  ///< Pixel blocks that cover the object's bounding box.
+  static constexpr int kMaxBlocks = 6144;  ///< Pixel blocks that cover the object's bounding box.
   static constexpr int kMaxSurfaceSamples = 2048;   ///< M, surface samples per frame.
   static constexpr int kMaxEdgePoints = 192;        ///< Occluding-edge points per frame.
   static constexpr int kMaxNodes = 1024;            ///< Octree nodes.

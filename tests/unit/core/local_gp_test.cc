@@ -19,7 +19,7 @@ namespace disflow::testing {
 namespace {
 
 static_assert(std::is_trivially_destructible_v<Gp>);
-static_assert(sizeof(Gp) <= 4 * (9 * kSamples + 10), "nothing but what a prediction needs");
+static_assert(sizeof(Gp) <= 26 * kSamples + 4 * 11, "nothing but what a prediction needs");
 
 void ExpectSameBits(const Gp& a, const Gp& b, const std::vector<Vec3>& points) {
   for (const Vec3& x_m : points) {

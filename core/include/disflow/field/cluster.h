@@ -13,8 +13,7 @@ namespace disflow {
 /// on those nearby.
 template <int kMaxSamples, int kMaxTrainingSamples>
 struct Cluster {
-  SampleList<kMaxSamples> samples;
-  LocalGp<kMaxTrainingSamples> gp;
+  // What every search looks at comes first, next to each other.
   Vec3 centroid_m;   ///< Mean of the samples' positions.
   Vec3 mean_normal;  ///< Unit mean of the samples' normals.
   OctreeCell cell;
@@ -26,6 +25,9 @@ struct Cluster {
   /// How many pieces of surface lie between this one and the first view, each registered to the one
   /// before: errors of the pose add up along that chain.
   float generation;
+
+  SampleList<kMaxSamples> samples;
+  LocalGp<kMaxTrainingSamples> gp;
 
   /// @param cell_min_m Corner of the cell.
   void Start(const OctreeCell& in_cell, const Vec3& cell_min_m, float cell_size_m, Handle in_leaf,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "disflow/config.h"
@@ -135,12 +136,10 @@ class DistanceField {
   /// Squared distance along the surface from x to the cluster's nearest sample.
   [[nodiscard]] static float TangentialDistanceSquared(const ClusterType& cluster,
                                                        const Vec3& x_m) noexcept {
+    const auto squared_m2 = cluster.samples.SquaredDistances(x_m, cluster.mean_normal);
     float best = 1e9F;
-    for (int i = 0; i < cluster.samples.size(); ++i) {
-      const Vec3 offset = x_m - cluster.samples.position_m(i);
-      const float along_normal = cluster.mean_normal.dot(offset);
-      best = std::fmin(best, offset.squaredNorm() - along_normal * along_normal);
-    }
+    for (int i = 0; i < cluster.samples.size(); ++i)
+      best = std::min(best, squared_m2[static_cast<std::size_t>(i)]);
     return best;
   }
 
@@ -181,11 +180,11 @@ class DistanceField {
         observation.position_m, config_.merge_radius_m,
         [&](Handle handle, const ClusterType& cluster) {
           if (cluster.mean_normal.dot(observation.normal) < 0.5F) return;
+          const auto squared_m2 = cluster.samples.SquaredDistances(observation.position_m);
           for (int i = 0; i < cluster.samples.size(); ++i) {
-            const float squared =
-                (cluster.samples.position_m(i) - observation.position_m).squaredNorm();
+            const float squared = squared_m2[static_cast<std::size_t>(i)];
             if (squared < nearest_squared &&
-                cluster.samples[i].normal.dot(observation.normal) > kSimilarNormalCos) {
+                cluster.samples.normal(i).dot(observation.normal) > kSimilarNormalCos) {
               nearest_squared = squared;
               nearest = i;
               owner = handle;

@@ -132,9 +132,10 @@ class LocalSurface {
       near.squared_m2 = best + JoinReach();
       const ClusterType& cluster = store[near.handle];
       if (store.tree().DistanceSquaredToCell(x_m, cluster.cell) > near.squared_m2) continue;
+      const auto squared_m2 = cluster.samples.SquaredDistances(x_m);
       for (int i = 0; i < cluster.samples.size(); ++i) {
-        const float squared = (cluster.samples.position_m(i) - x_m).squaredNorm();
-        if (squared >= near.squared_m2 || cluster.samples[i].observations < min_observations_)
+        const float squared = squared_m2[static_cast<std::size_t>(i)];
+        if (squared >= near.squared_m2 || cluster.samples.observations(i) < min_observations_)
           continue;
         near.squared_m2 = squared;
         near.sample = i;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 
@@ -37,7 +38,7 @@ class Octree {
   static constexpr int kCoarseLevels = 2;
   /// Nodes with facets. Surface fills about four of a node's eight children, so that four of five
   /// nodes are leaves.
-  static constexpr int kMaxCoarseNodes = (kMaxNodes + 2) / 3;
+  static constexpr int kMaxCoarseNodes = (kMaxNodes + 3) / 4;
 
   using Cell = OctreeCell;
 
@@ -110,6 +111,7 @@ class Octree {
           return kNoHandle;
         }
         at(node).child[Octant(cell, bit)] = next;
+        at(node).children |= static_cast<std::uint8_t>(1U << Octant(cell, bit));
       }
       node = next;
     }
@@ -125,6 +127,7 @@ class Octree {
     while (node != root_ && node != kNoHandle && IsEmpty(at(node))) {
       const Handle parent = at(node).parent;
       at(parent).child[at(node).octant] = kNoHandle;
+      at(parent).children &= static_cast<std::uint8_t>(~(1U << at(node).octant));
       if (at(node).facets != kNoHandle) (void)free_facets_.push_back(at(node).facets);
       at(node).parent = free_head_;
       free_head_ = node;
@@ -137,17 +140,7 @@ class Octree {
   /// bounds the box.
   template <class Visitor>
   void ForEachLeafInBox(const Vec3& low_m, const Vec3& high_m, Visitor&& visit) const noexcept {
-    const Cell low = ClampedCell(low_m);
-    const Cell high = ClampedCell(high_m);
-    for (int z = low.z; z <= high.z; ++z) {
-      for (int y = low.y; y <= high.y; ++y) {
-        for (int x = low.x; x <= high.x; ++x) {
-          const Cell cell{x, y, z};
-          const Handle leaf = FindLeaf(cell);
-          if (leaf != kNoHandle) visit(cell, leaf);
-        }
-      }
-    }
+    VisitInBox<kDepth - 1>(root_, Cell{}, ClampedCell(low_m), ClampedCell(high_m), visit);
   }
 
   /// Calls visit(cell, leaf) for every leaf, in a fixed order.
@@ -207,8 +200,9 @@ class Octree {
     std::array<Handle, 8> child;
     Handle parent;  ///< Next free node while in the free list.
     Handle first_cluster;
-    Handle facets;        ///< Of a coarse node with samples below, else kNoHandle.
-    std::uint8_t octant;  ///< Place among the parent's children.
+    Handle facets;          ///< Of a coarse node with samples below, else kNoHandle.
+    std::uint8_t children;  ///< Bit i: child i exists.
+    std::uint8_t octant;    ///< Place among the parent's children.
   };
 
   [[nodiscard]] static Facet EmptyFacet() noexcept { return {Vec3::Zero(), Vec3::Zero(), 0.0F}; }
@@ -223,18 +217,15 @@ class Octree {
   [[nodiscard]] Cell ClampedCell(const Vec3& x_m) const noexcept {
     const auto clamp = [this](float coordinate_m) {
       const float scaled = coordinate_m * inverse_cell_size_ + 0.5F * kCellsPerEdge;
-      return static_cast<int>(
-          std::fmin(std::fmax(scaled, 0.0F), static_cast<float>(kCellsPerEdge - 1)));
+      constexpr auto kLast = static_cast<float>(kCellsPerEdge - 1);
+      const float above = scaled > 0.0F ? scaled : 0.0F;  // NaN too
+      return static_cast<int>(above < kLast ? above : kLast);
     };
     return {clamp(x_m.x()), clamp(x_m.y()), clamp(x_m.z())};
   }
 
   [[nodiscard]] static bool IsEmpty(const Node& node) noexcept {
-    if (node.first_cluster != kNoHandle) return false;
-    for (const Handle child : node.child) {
-      if (child != kNoHandle) return false;
-    }
-    return true;
+    return node.first_cluster == kNoHandle && node.children == 0;
   }
 
   [[nodiscard]] Handle Take(Handle parent, std::uint8_t octant) noexcept {
@@ -246,6 +237,7 @@ class Octree {
     at(node).parent = parent;
     at(node).first_cluster = kNoHandle;
     at(node).facets = kNoHandle;
+    at(node).children = 0;
     at(node).octant = octant;
     return node;
   }
@@ -292,6 +284,30 @@ class Octree {
       VisitBelow(child, level + 1,
                  Cell{2 * cell.x + (o & 1), 2 * cell.y + ((o >> 1) & 1), 2 * cell.z + (o >> 2)},
                  visit);
+    }
+  }
+
+  /// @tparam kBit Of the cells' coordinates that tells the node's children apart.
+  /// @param corner The node's first cell.
+  template <int kBit, class Visitor>
+  void VisitInBox(Handle node, const Cell& corner, const Cell& low, const Cell& high,
+                  Visitor& visit) const noexcept {
+    const Cell middle{corner.x | 1 << kBit, corner.y | 1 << kBit, corner.z | 1 << kBit};
+    unsigned meeting = at(node).children;
+    meeting &= (low.x < middle.x ? 0x55U : 0U) | (high.x >= middle.x ? 0xAAU : 0U);
+    meeting &= (low.y < middle.y ? 0x33U : 0U) | (high.y >= middle.y ? 0xCCU : 0U);
+    meeting &= (low.z < middle.z ? 0x0FU : 0U) | (high.z >= middle.z ? 0xF0U : 0U);
+    for (; meeting != 0U; meeting &= meeting - 1U) {
+      const auto octant = static_cast<unsigned>(std::countr_zero(meeting));
+      const Handle child = at(node).child[octant];
+      const Cell cell{(octant & 1U) != 0U ? middle.x : corner.x,
+                      (octant & 2U) != 0U ? middle.y : corner.y,
+                      (octant & 4U) != 0U ? middle.z : corner.z};
+      if constexpr (kBit == 0) {
+        visit(cell, child);
+      } else {
+        VisitInBox<kBit - 1>(child, cell, low, high, visit);
+      }
     }
   }
 

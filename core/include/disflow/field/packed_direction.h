@@ -12,7 +12,7 @@
 namespace disflow {
 
 /// A unit vector in four bytes: its projection onto the octahedron |x| + |y| + |z| = 1, unfolded
-/// into a square (Meyer et al. 2010). Off by less than 6e-5 rad. Zero and NaN become some
+/// into a square (Meyer et al. 2010). Off by less than 7e-5 rad. Zero and NaN become some
 /// direction.
 class PackedDirection {
  public:

@@ -24,7 +24,7 @@ struct ModelSample {
 };
 
 /// At most kMaxSamples samples within a bounded reach of a place, 16 bytes each. Samples go in and
-/// come out by value: positions are rounded to 1/32767 of the reach, normals to 6e-5 rad, variances
+/// come out by value: positions are rounded to 1/32767 of the reach, normals to 7e-5 rad, variances
 /// to 0.05 %. Start() it before first use.
 template <int kMaxSamples>
 class SampleList {
@@ -34,6 +34,7 @@ class SampleList {
   void Start(const Vec3& origin_m, float reach_m) noexcept {
     origin_m_ = origin_m;
     step_m_ = reach_m / kMostSteps;
+    for (auto& axis : position_) axis.fill(0);
     size_ = 0;
   }
 
@@ -42,14 +43,36 @@ class SampleList {
   [[nodiscard]] bool full() const noexcept { return size_ == kMaxSamples; }
 
   [[nodiscard]] Vec3 position_m(int i) const noexcept {
-    const auto& steps = at(i).position;
-    return origin_m_ + step_m_ * Vec3(static_cast<float>(steps[0]), static_cast<float>(steps[1]),
-                                      static_cast<float>(steps[2]));
+    assert(i >= 0 && i < size_);
+    const auto k = static_cast<std::size_t>(i);
+    return origin_m_ + step_m_ * Vec3(static_cast<float>(position_[0][k]),
+                                      static_cast<float>(position_[1][k]),
+                                      static_cast<float>(position_[2][k]));
   }
+  [[nodiscard]] int observations(int i) const noexcept { return rest(i).observations; }
+  [[nodiscard]] Vec3 normal(int i) const noexcept { return rest(i).normal.direction(); }
   [[nodiscard]] ModelSample operator[](int i) const noexcept {
-    const Packed& packed = at(i);
-    return {position_m(i), packed.normal.direction(), packed.variance_m2.value(),
-            packed.normal_variance.value(), packed.observations};
+    const Rest& r = rest(i);
+    return {position_m(i), r.normal.direction(), r.variance_m2.value(), r.normal_variance.value(),
+            r.observations};
+  }
+
+  /// Squared distances from x to the samples, without their part along a unit normal.
+  /// @return Elements from size() on have no meaning.
+  [[nodiscard]] std::array<float, static_cast<std::size_t>(kMaxSamples)> SquaredDistances(
+      const Vec3& x_m, const Vec3& normal = Vec3::Zero()) const noexcept {
+    std::array<float, static_cast<std::size_t>(kMaxSamples)> squared_m2;
+    const Vec3 offset_m = x_m - origin_m_;
+    // In whole groups, for vector instructions.
+    const auto count = static_cast<std::size_t>((size_ + kGroup - 1) / kGroup * kGroup);
+    for (std::size_t i = 0; i < count; ++i) {
+      const float x = offset_m.x() - step_m_ * static_cast<float>(position_[0][i]);
+      const float y = offset_m.y() - step_m_ * static_cast<float>(position_[1][i]);
+      const float z = offset_m.z() - step_m_ * static_cast<float>(position_[2][i]);
+      const float along = x * normal.x() + y * normal.y() + z * normal.z();
+      squared_m2[i] = x * x + y * y + z * z - along * along;
+    }
+    return squared_m2;
   }
 
   /// @return false when full; the list is then unchanged.
@@ -61,13 +84,12 @@ class SampleList {
   }
   void Set(int i, const ModelSample& sample) noexcept {
     assert(i >= 0 && i < size_);
+    const auto k = static_cast<std::size_t>(i);
     const Vec3 steps = (sample.position_m - origin_m_) / step_m_;
-    samples_[static_cast<std::size_t>(i)] = {
-        {RoundToSteps(steps.x()), RoundToSteps(steps.y()), RoundToSteps(steps.z())},
-        PackedVariance(sample.variance_m2),
-        PackedDirection(sample.normal),
-        PackedVariance(sample.normal_variance),
-        sample.observations};
+    for (int axis = 0; axis < 3; ++axis)
+      position_[static_cast<std::size_t>(axis)][k] = RoundToSteps(steps[axis]);
+    rest_[k] = {PackedVariance(sample.variance_m2), PackedDirection(sample.normal),
+                PackedVariance(sample.normal_variance), sample.observations};
   }
 
   /// Reads the samples one after the other.
@@ -96,24 +118,29 @@ class SampleList {
   [[nodiscard]] Iterator end() const noexcept { return {*this, size_}; }
 
  private:
-  struct Packed {
-    std::array<std::int16_t, 3> position;
+  static constexpr int kGroup = 4;
+  static_assert(kMaxSamples % kGroup == 0);
+  using Steps = std::array<std::int16_t, static_cast<std::size_t>(kMaxSamples)>;
+
+  /// All of a sample but its position.
+  struct Rest {
     PackedVariance variance_m2;
     PackedDirection normal;
     PackedVariance normal_variance;
     std::uint16_t observations;
   };
-  static_assert(sizeof(Packed) == 16);
+  static_assert(sizeof(Rest) == 10);
 
-  [[nodiscard]] const Packed& at(int i) const noexcept {
+  [[nodiscard]] const Rest& rest(int i) const noexcept {
     assert(i >= 0 && i < size_);
-    return samples_[static_cast<std::size_t>(i)];
+    return rest_[static_cast<std::size_t>(i)];
   }
 
   Vec3 origin_m_;
   float step_m_;
   int size_ = 0;
-  std::array<Packed, static_cast<std::size_t>(kMaxSamples)> samples_;
+  std::array<Steps, 3> position_;  ///< From the origin, per axis.
+  std::array<Rest, static_cast<std::size_t>(kMaxSamples)> rest_;
 };
 
 }  // namespace disflow
