@@ -6,6 +6,7 @@
 #include "ply_file.h"
 #include "sequence.h"
 #include "surface.h"
+#include "surface_calibration.h"
 #include "visibility.h"
 
 namespace disflow::apps {
@@ -42,7 +43,9 @@ Report Evaluate(const EvaluationInput& input) {
     report.mesh = input.mesh.string();
     const Surface mesh = Move(report.run.T_ot.Inverse(), LoadPly(input.mesh));
     const std::vector<SurfacePoint> samples = SampleSurface(model, kMeshSamples);
-    report.surface = CompareMeshes(mesh, model, samples, FindSeen(sequence, samples));
+    const std::vector<bool> seen = FindSeen(sequence, samples);
+    report.surface = CompareMeshes(mesh, model, samples, seen);
+    report.surface_calibration = CalibrateSurface(mesh, NearestSurface(model, samples), seen);
   }
   return report;
 }

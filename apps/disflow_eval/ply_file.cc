@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -131,6 +132,7 @@ class PlyReader {
     if (columns[0] < 0 || columns[1] < 0 || columns[2] < 0) {
       throw InputError(file_, "the element 'vertex' lacks x, y or z");
     }
+    const int std_column = Find(element, "std_m");
     const bool with_normals = columns[3] >= 0 && columns[4] >= 0 && columns[5] >= 0;
     std::vector<double> values(element.properties.size());
     const auto vector = [&](int first) {
@@ -142,11 +144,21 @@ class PlyReader {
       const Vec3d position = vector(0);
       if (!position.allFinite()) NotFinite(i);
       surface_.vertices.push_back(position);
+      if (std_column >= 0) AddStd(values[static_cast<std::size_t>(std_column)], i);
       if (!with_normals) continue;
       const Vec3d normal = vector(3);
       if (!normal.allFinite()) NotFinite(i);
       surface_.normals.push_back(normal.normalized());
     }
+  }
+
+  void AddStd(double std_m, std::uint64_t vertex) {
+    // Written so that NaN is refused too.
+    if (!(std_m >= 0.0 && std_m < std::numeric_limits<double>::infinity())) {
+      throw InputError(
+          file_, "vertex " + std::to_string(vertex) + " has a std_m that is no standard deviation");
+    }
+    surface_.stds_m.push_back(std_m);
   }
 
   [[noreturn]] void NotFinite(std::uint64_t vertex) const {

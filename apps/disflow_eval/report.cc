@@ -95,6 +95,14 @@ void AddSurface(const char* group, const MeshMetrics& m, RowWriter& rows) {
            kDegrees * m.mesh_to_model_normal_rad, kDegrees * m.model_to_mesh_normal_rad);
 }
 
+void AddCalibration(const SurfaceCalibration& c, RowWriter& rows) {
+  rows.Begin("Surface, standard deviation");
+  rows.Add("stated / true error, rms", "%.3f / %.3f mm", kMillimetres * c.std_m,
+           kMillimetres * c.error_m);
+  rows.Add("vertices within 1 / 2 / 3 of it", "%.1f / %.1f / %.1f %%", kPercent * c.share_within[0],
+           kPercent * c.share_within[1], kPercent * c.share_within[2]);
+}
+
 }  // namespace
 
 std::vector<StageTiming> EvaluateTiming(const EstimateTable& estimates) {
@@ -127,6 +135,7 @@ std::vector<ReportRow> Rows(const Report& report) {
       rows.Add("seen part", "%s", "not known: no depth images beside the truth");
     }
   }
+  if (report.surface_calibration) AddCalibration(*report.surface_calibration, rows);
   AddTiming(report.stages, rows);
   return rows.Take();
 }

@@ -8,6 +8,7 @@
 #include "consistency.h"
 #include "mesh_metrics.h"
 #include "pose_metrics.h"
+#include "surface_calibration.h"
 #include "trajectory.h"
 
 namespace disflow::apps {
@@ -40,6 +41,7 @@ struct Report {
   std::vector<StageTiming> stages;
   std::string mesh;  ///< Empty if none was given.
   std::optional<MeshComparison> surface;
+  std::optional<SurfaceCalibration> surface_calibration;  ///< Of the seen part, if that is known.
 };
 
 /// One number of the report, ready to show.

@@ -37,6 +37,20 @@ Json ToJson(const MeshMetrics& m) {
           {"model_to_mesh_normal_deg", kDegrees * m.model_to_mesh_normal_rad}};
 }
 
+Json ToJson(const SurfaceCalibration& c) {
+  Json bins = Json::array();
+  for (const SurfaceCalibration::Bin& bin : c.bins)
+    bins.push_back({{"std_m", bin.std_m}, {"error_m", bin.error_m}});
+  return {{"vertices", c.vertices},
+          {"std_m", c.std_m},
+          {"error_m", c.error_m},
+          {"error_over_std", c.error_m / c.std_m},
+          {"share_within_1_std", c.share_within[0]},
+          {"share_within_2_std", c.share_within[1]},
+          {"share_within_3_std", c.share_within[2]},
+          {"bins", bins}};
+}
+
 }  // namespace
 
 std::string FormatJson(const Report& report) {
@@ -72,6 +86,8 @@ std::string FormatJson(const Report& report) {
                        {"whole", ToJson(report.surface->whole)},
                        {"seen", ToJson(report.surface->seen)},
                        {"seen_share", report.surface->seen_share}};
+    if (report.surface_calibration)
+      json["surface"]["calibration"] = ToJson(*report.surface_calibration);
   }
   for (const StageTiming& stage : report.stages) json["time_ms"][stage.name] = ToJson(stage.ms);
   // File names need not be UTF-8; a replaced byte is better than no report.

@@ -13,6 +13,7 @@ namespace disflow::apps {
 struct Surface {
   std::vector<Vec3d> vertices;
   std::vector<Vec3d> normals;  ///< Per vertex, outward, unit length; or empty.
+  std::vector<double> stds_m;  ///< Per vertex, standard deviation along the normal; or empty.
   std::vector<std::array<std::uint32_t, 3>> triangles;
 
   [[nodiscard]] bool is_mesh() const { return !triangles.empty(); }

@@ -48,6 +48,12 @@ FIGURES = {
     "chamfer": Figure("Chamfer", "mm", 3, ("surface", "seen", "chamfer_m"), 1e3),
     "normal_out": Figure("normals, mesh to model", "°", 2, ("surface", "seen", "mesh_to_model_normal_deg")),
     "normal_back": Figure("normals, model to mesh", "°", 2, ("surface", "seen", "model_to_mesh_normal_deg")),
+    "stated_std": Figure("stated", "mm", 3, ("surface", "calibration", "std_m"), 1e3),
+    "std_error": Figure("true", "mm", 3, ("surface", "calibration", "error_m"), 1e3),
+    "error_over_std": Figure("true / stated", "", 2, ("surface", "calibration", "error_over_std")),
+    "within_1_std": Figure("within 1 σ", "%", 1, ("surface", "calibration", "share_within_1_std"), 1e2),
+    "within_2_std": Figure("within 2 σ", "%", 1, ("surface", "calibration", "share_within_2_std"), 1e2),
+    "within_3_std": Figure("within 3 σ", "%", 1, ("surface", "calibration", "share_within_3_std"), 1e2),
 }
 
 # For a run that lost the object at once or gave no report: its AUC is zero, the rest is not known.

@@ -2,6 +2,7 @@
 """Pictures of the accuracy run, drawn by gnuplot from the error tables that disflow_eval left."""
 
 import csv
+import json
 import math
 import subprocess
 
@@ -97,6 +98,28 @@ def _add_curves(programs, path, rows, seeds):
     _draw(path, 480, "1,1", "Share of frames below an error", [panel])
 
 
+def _calibration(programs, path, rows, seeds):
+    """Stated against true deviation of the surface, ten bins of vertices per run."""
+    panels = []
+    for row in rows:
+        curves = []
+        for seed in seeds:
+            report = json.loads(programs.file(runs.Job(row.name, row.scene, seed), ".json").read_text(encoding="utf-8"))
+            bins = (report.get("surface") or {}).get("calibration", {}).get("bins", [])
+            points = "\n".join(f"{1e3 * b['std_m']:.5f},{1e3 * b['error_m']:.5f}" for b in bins)
+            if points:
+                panels.append(f"$c{len(panels)} << END\n{points}\nEND")
+                curves.append(f"$c{len(panels) - 1} with linespoints lt {seed} pt 7 ps 0.6 title '{seed}'")
+        if not curves:
+            continue
+        panels.append(
+            f"set title '{row.name}' noenhanced; set xlabel 'stated standard deviation [mm]'; set ylabel 'true error, rms [mm]'\n"
+            "set logscale xy; set xrange [0.03:3]; set yrange [0.03:3]\n"
+            "plot x lc rgb 'black', 1.5*x lc rgb 'black' dt 2, x/1.5 lc rgb 'black' dt 2, " + ", ".join(curves)
+        )
+    _draw(path, 430, f"1,{len(rows)}", "Standard deviation of the surface against its error; dashed: factor 1.5", panels)
+
+
 def draw(programs, rows, seeds, folder):
     """Draws what the rows at hand allow. @return (file name, title) of every picture."""
     folder.mkdir(parents=True, exist_ok=True)
@@ -119,4 +142,8 @@ def draw(programs, rows, seeds, folder):
     if curves:
         _add_curves(programs, folder / "accuracy-add.png", curves, seeds)
         pictures.append(("accuracy-add.png", "Share of frames below an error"))
+    surfaces = present("box, rotate360, d415", "bottle, rotate360, d415")
+    if surfaces:
+        _calibration(programs, folder / "accuracy-surface.png", surfaces, seeds)
+        pictures.append(("accuracy-surface.png", "Stated standard deviation of the surface against its true error"))
     return pictures

@@ -36,6 +36,9 @@ SURFACE = (
     Goal("normal_back", "<=", 5.0),
 )
 
+# Of the standard deviation that the surface states, on noisy sequences: within a factor of 1.5.
+CALIBRATED = (Goal("error_over_std", ">=", 0.67), Goal("error_over_std", "<=", 1.5))
+
 # Of the timed rows.
 SPEED = (Goal("median_ms", "<=", 1.2), Goal("p99_ms", "<=", 2.5))
 MEMORY_LIMIT_BYTES = 1 << 20
@@ -64,9 +67,10 @@ def _rows():
         for thing in ("box", "bottle"):
             add(thing, "flying", noise, (Goal("add_auc", ">=", limit),))
     drift = (Goal("drift_m", "<=", 0.3), Goal("drift_deg", "<=", 0.15))
-    add("box", "rotate360", "d415", drift)
-    add("bottle", "rotate360", "d415", drift + SURFACE, mesh=True)
-    add("bottle", "rotate360", "clean", mesh=True)
+    add("box", "rotate360", "d415", drift + CALIBRATED, mesh=True)
+    add("bottle", "rotate360", "d415", drift + SURFACE + CALIBRATED, mesh=True)
+    for thing in ("box", "bottle"):
+        add(thing, "rotate360", "clean", mesh=True)
     for extra, label in (
         ("mask=sloppy", "sloppy mask"),
         ("mask=none", "no mask"),

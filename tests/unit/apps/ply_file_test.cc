@@ -69,6 +69,17 @@ TEST_F(PlyFileTest, BinaryTriangle_IsReadPastUnknownProperties) {
   EXPECT_EQ(s.triangles[0], (std::array<std::uint32_t, 3>{0, 1, 2}));
 }
 
+TEST_F(PlyFileTest, StandardDeviations_AreReadAndJudged) {
+  const auto point = [](const std::string& std_m) {
+    return "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+           "property float z\nproperty float std_m\nend_header\n0 0 1 " +
+           std_m + "\n";
+  };
+  EXPECT_EQ(Load(point("0.25")).stds_m, std::vector<double>{0.25});
+  EXPECT_TRUE(Load(BinaryTriangle()).stds_m.empty());
+  EXPECT_PRED_FORMAT2(IsSubstring, "std_m", Refusal(point("-1")));
+}
+
 TEST_F(PlyFileTest, AsciiSquare_BecomesTwoTriangles) {
   const Surface s = Load(Ascii("4 0 1 2 3\n"));
   EXPECT_TRUE(s.normals.empty());

@@ -102,6 +102,21 @@ TEST(ReportTest, JsonOfASurfaceOfWhichNothingIsKnownToBeSeen_SaysNull) {
   EXPECT_TRUE(nlohmann::json::parse(FormatJson(report))["surface"]["seen_share"].is_null());
 }
 
+TEST(ReportTest, CalibrationOfASurface_IsShownAndInTheJson) {
+  Report report = MakeReport();
+  report.surface.emplace();
+  SurfaceCalibration& c = report.surface_calibration.emplace();
+  c.std_m = 0.0002;
+  c.error_m = 0.0003;
+  c.share_within = {0.5, 0.9, 0.99};
+  c.bins = {{0.0001, 0.00015}};
+  const auto json = nlohmann::json::parse(FormatJson(report))["surface"]["calibration"];
+  EXPECT_NEAR(json["error_over_std"].get<double>(), 1.5, 1e-9);
+  EXPECT_EQ(json["share_within_2_std"], 0.9);
+  EXPECT_EQ(json["bins"][0]["error_m"], 0.00015);
+  EXPECT_NE(FormatTable(report).find("50.0 / 90.0 / 99.0 %"), std::string::npos);
+}
+
 TEST(ReportTest, JsonOfAFileNameThatIsNoUtf8_IsStillJson) {
   Report report = MakeReport();
   report.sequence = "bad\xff name";

@@ -99,6 +99,12 @@ class Rows(unittest.TestCase):
             self.assertEqual("noise=d415" in row.scene, "pose_nees" in asked and "twist_nees" in asked, row.name)
 
 
+    def test_every_noisy_surface_has_to_know_how_sure_it_is(self):
+        for row in sequences.ROWS:
+            asked = {goal.relation for goal in row.goals if goal.figure == "error_over_std"}
+            self.assertEqual(asked, {"<=", ">="} if row.mesh and "noise=d415" in row.scene else set(), row.name)
+
+
 class Pages(unittest.TestCase):
     def test_only_what_is_between_the_markers_changes(self):
         with tempfile.TemporaryDirectory() as folder:
