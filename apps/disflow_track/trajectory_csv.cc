@@ -55,7 +55,7 @@ class Row {
   }
 
  private:
-  // Every number has at most 24 characters, every word at most 24; there are 81 columns.
+  // Every number has at most 24 characters, every word at most 24; there are 88 columns.
   static constexpr std::size_t kCapacity = 4096;
 
   void Separate() noexcept {
@@ -99,6 +99,14 @@ void AddVerdict(const Estimate& estimate, Row& row) noexcept {
   row.Add(std::int64_t{estimate.reset_counter});
 }
 
+void AddObservability(const Estimate& estimate, Row& row) noexcept {
+  row.Add(estimate.conflict);
+  row.Add(estimate.visible);
+  row.Add(Name(estimate.weak.kind));
+  for (int i = 0; i < 3; ++i) row.Add(estimate.weak.axis[i]);
+  row.Add(estimate.weak.std);
+}
+
 std::string Header() {
   std::string header =
       "frame,timestamp,x,y,z,qx,qy,qz,qw,vx,vy,vz,wx,wy,wz,status,state,quality,score,samples,"
@@ -109,7 +117,7 @@ std::string Header() {
   header += ",total_ms,noise";
   for (int i = 0; i < kTriangle; ++i) header += ",cov_pose_" + std::to_string(i);
   for (int i = 0; i < kTriangle; ++i) header += ",cov_twist_" + std::to_string(i);
-  return header + ",dropped\n";
+  return header + ",conflict,visible,weak,weak_x,weak_y,weak_z,weak_std,dropped\n";
 }
 
 }  // namespace
@@ -135,6 +143,7 @@ bool TrajectoryCsv::Write(const FrameResult& result) noexcept {
   row.Add(estimate.inverse_depth_std_per_m);
   row.AddUpperTriangle(estimate.pose_covariance);
   row.AddUpperTriangle(estimate.twist_covariance);
+  AddObservability(estimate, row);
   row.Add(std::int64_t{result.dropped_frames});
   return file_.Append(row.FinishLine());
 }

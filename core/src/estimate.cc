@@ -47,6 +47,18 @@ const char* Name(Stage stage) noexcept {
   return "unknown";
 }
 
+const char* Name(WeakKind kind) noexcept {
+  switch (kind) {
+    case WeakKind::kNone:
+      return "none";
+    case WeakKind::kTranslation:
+      return "translation";
+    case WeakKind::kRotation:
+      return "rotation";
+  }
+  return "unknown";
+}
+
 void Counters::Accumulate(const Counters& other) noexcept {
   AddSaturating(frames, other.frames);
   AddSaturating(frames_rejected, other.frames_rejected);

@@ -17,6 +17,7 @@ struct SegmenterConfig {
   float depth_jump_ratio = 0.02F;
   float model_margin_m = 0.03F;
   float explained_m = 0.012F;
+  float free_margin_m = 0.012F;
   float lost_margin_m = 0.05F;
   int roi_x_px = 0;
   int roi_y_px = 0;
@@ -94,6 +95,8 @@ struct MonitorConfig {
   float degraded_conflict = 0.15F;
   float degraded_std_m = 0.0067F;
   float degraded_std_rad = 0.058F;
+  float weak_std_m = 0.004F;
+  float weak_std_rad = 0.026F;
   float lost_score = 0.3F;
   float lost_conflict = 0.4F;
   float recovered_score = 0.75F;

@@ -37,6 +37,9 @@ constexpr void VisitFields(ConfigType& config, Visitor&& visitor) {
         "without a mask, pixels farther than this from the predicted model are not the object");
   field("segmenter.explained_m", seg.explained_m, 1e-4, 1.0, "m",
         "pixels this close to the predicted model's surface are taken for the object");
+  field("segmenter.free_margin_m", seg.free_margin_m, 0.0, 10.0, "m",
+        "surface this far in front of what an earlier view saw behind it is not fused: it is not "
+        "the object's; 0 = off");
   field("segmenter.lost_margin_m", seg.lost_margin_m, 0.0, 1.0, "m",
         "added to model_margin_m while the object is lost");
   field("segmenter.roi_x_px", seg.roi_x_px, 0, 8192, "px", "region of interest, left edge");
@@ -134,9 +137,10 @@ constexpr void VisitFields(ConfigType& config, Visitor&& visitor) {
   field("registration.covariance_inflation", reg.covariance_inflation, 1.0, 1e4, "1",
         "factor on the pose covariance for what the noise model leaves out: correlated noise and "
         "model error");
-  field("registration.drift_inflation", reg.drift_inflation, 0.0, 1e4, "1",
-        "what each piece of surface between the first view and the present one adds to the reported "
-        "pose covariance, in multiples of the registration's own");
+  field(
+      "registration.drift_inflation", reg.drift_inflation, 0.0, 1e4, "1",
+      "what each piece of surface between the first view and the present one adds to the reported "
+      "pose covariance, in multiples of the registration's own");
   auto& twist = config.twist;
   field("twist.linear_jerk_psd", twist.linear_jerk_psd, 1e-6, 1e9, "m^2/s^5",
         "power density of the jerk, translation");
@@ -153,6 +157,10 @@ constexpr void VisitFields(ConfigType& config, Visitor&& visitor) {
         "with a larger standard deviation of the position the state is degraded");
   field("monitor.degraded_std_rad", mon.degraded_std_rad, 0.0, 10.0, "rad",
         "with a larger standard deviation of the rotation the state is degraded");
+  field("monitor.weak_std_m", mon.weak_std_m, 1e-6, 10.0, "m",
+        "with a larger standard deviation along an axis that axis is named as weakly observed");
+  field("monitor.weak_std_rad", mon.weak_std_rad, 1e-6, 10.0, "rad",
+        "with a larger standard deviation about an axis that axis is named as weakly observed");
   field("monitor.lost_score", mon.lost_score, 0.0, 1.0, "1",
         "below this score the frame does not count as registered");
   field("monitor.lost_conflict", mon.lost_conflict, 0.0, 1.0, "1",

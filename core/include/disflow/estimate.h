@@ -56,6 +56,21 @@ struct Twist {
   Vec3 angular_rps = Vec3::Zero();  ///< omega, rad/s.
 };
 
+enum class WeakKind : std::uint8_t {
+  kNone = 0,         ///< All six directions are well observed.
+  kTranslation = 1,  ///< The position along an axis is not, as along a bare plane.
+  kRotation = 2,     ///< The rotation about an axis is not, as of a can.
+};
+/// @return Lower-case name, static storage.
+[[nodiscard]] const char* Name(WeakKind kind) noexcept;
+
+/// The direction in which what is seen of the object's surface says least about the pose.
+struct WeakDirection {
+  WeakKind kind = WeakKind::kNone;
+  Vec3 axis = Vec3::Zero();  ///< Unit vector in camera axes, either sign; zero with kNone.
+  float std = 0.0F;          ///< Standard deviation along or about it, m or rad; 0 with kNone.
+};
+
 /// Pipeline stages in the order in which a frame passes them.
 enum class Stage : std::uint8_t { kSegment, kSample, kRegister, kFilter, kFuse, kRetrain };
 inline constexpr int kStageCount = 6;
@@ -85,6 +100,8 @@ struct Estimate {
   Mat6 pose_covariance = Mat6::Zero();
   /// Covariance of (linear_mps, angular_rps).
   Mat6 twist_covariance = Mat6::Zero();
+  /// Named when its standard deviation exceeds monitor.weak_std_m or weak_std_rad.
+  WeakDirection weak;
 
   std::uint8_t quality = 0;        ///< 0 = not usable, 100 = best.
   std::uint8_t reset_counter = 0;  ///< Bumped whenever the object frame starts anew.

@@ -22,6 +22,7 @@ struct Edge {
   static constexpr int kMaxSamplesPerCluster = 24;  ///< Samples kept by one local GP.
   static constexpr int kMaxTrainingSamples = 16;    ///< N, samples that one local GP is trained on.
   static constexpr int kMaxModelEdges = 512;        ///< Occluding-edge samples in the model.
+  static constexpr int kMaxSeenViews = 6;           ///< Views whose free space is remembered.
   static constexpr int kMaxRegistrationPoints = 500;  ///< Samples used by one registration.
 };
 
@@ -39,6 +40,7 @@ struct Micro {
   static constexpr int kMaxSamplesPerCluster = 20;
   static constexpr int kMaxTrainingSamples = 12;
   static constexpr int kMaxModelEdges = 192;
+  static constexpr int kMaxSeenViews = 3;
   static constexpr int kMaxRegistrationPoints = 250;
 };
 
@@ -56,6 +58,7 @@ struct Dense {
   static constexpr int kMaxSamplesPerCluster = 24;
   static constexpr int kMaxTrainingSamples = 16;
   static constexpr int kMaxModelEdges = 2048;
+  static constexpr int kMaxSeenViews = 6;
   static constexpr int kMaxRegistrationPoints = 1500;
 };
 

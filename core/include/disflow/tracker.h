@@ -4,6 +4,7 @@
 #include "disflow/config.h"
 #include "disflow/depth/depth_frame.h"
 #include "disflow/depth/edge_sampler.h"
+#include "disflow/depth/seen_space.h"
 #include "disflow/depth/segmenter.h"
 #include "disflow/depth/surface_sampler.h"
 #include "disflow/estimate.h"
@@ -84,6 +85,8 @@ class Tracker {
                                        const PoseObjectFromCamera& T_oc) const noexcept;
   void Coast(StampNs stamp_ns, Estimate& estimate) const noexcept;
   [[nodiscard]] Mat6 PoseCovariance(const Aligned& aligned) const noexcept;
+  [[nodiscard]] bool IsForeign(const Vec3& x_o) const noexcept;
+  void RememberView(const DepthFrame& frame) noexcept;
   void FuseObservations(Estimate& estimate) noexcept;
   void Retrain() noexcept;
   Status Finish(Status status, const DepthFrame& frame, Estimate& estimate) noexcept;
@@ -108,6 +111,7 @@ class Tracker {
   Registration<Limits> registration_;
   Field field_;
   EdgeMap<Limits::kMaxModelEdges> model_edges_;
+  SeenSpace<Limits::kMaxSeenViews> seen_;
   TwistFilter twist_filter_;
   TrackingMonitor monitor_;
 };

@@ -3,6 +3,7 @@
 
 #include "disflow/field/known_surface.h"
 #include "disflow/flow/model_agreement.h"
+#include "disflow/flow/weak_direction.h"
 #include "disflow/geometry/symmetric_solver.h"
 #include "disflow/tracker.h"
 
@@ -17,6 +18,7 @@ Tracker<Limits>::Tracker(const Config& config) noexcept
     : config_(config), config_issue_(Validate(config)) {
   field_.Start(config_.field);
   model_edges_.Start();
+  seen_.Start();
 }
 
 // Section V, in the order in which the paper tells it.
@@ -47,6 +49,7 @@ Status Tracker<Limits>::Process(const DepthFrame& frame, Estimate& estimate,
 
   // V-E: what was observed becomes part of the model.
   if (status == Status::kOk) {
+    RememberView(frame);
     FuseObservations(estimate);
     stopwatch.Mark(Stage::kFuse);
     Retrain();
@@ -90,6 +93,7 @@ void Tracker<Limits>::Reset() noexcept {
   frame_index_ = 0;
   field_.Start(config_.field);
   model_edges_.Start();
+  seen_.Start();
 }
 
 template <class Limits>
@@ -220,6 +224,9 @@ Status Tracker<Limits>::Conclude(const DepthFrame& frame, Status observed, const
     // The twist filter sees differences between frames, in which the drift of the model cancels.
     twist_filter_.Predict(frame.stamp_ns);
     twist_filter_.Update(T_oc_.Inverse(), covariance);
+    // Along a direction that the surface hardly tells, the motion up to now says more.
+    estimate.weak = FindWeakDirection(reported, config_.monitor);
+    if (estimate.weak.kind != WeakKind::kNone) T_oc_ = twist_filter_.T_co().Inverse();
     field_.SetGeneration(aligned.generation + 1.0F);
     registered_covariance_ = reported;
     estimate.pose_covariance = reported;
@@ -275,6 +282,7 @@ void Tracker<Limits>::Coast(StampNs stamp_ns, Estimate& estimate) const noexcept
   estimate.twist_covariance = coasting.twist_covariance();
   // What it was then and what has been added since.
   estimate.pose_covariance = registered_covariance_ + coasting.pose_covariance();
+  estimate.weak = FindWeakDirection(estimate.pose_covariance, config_.monitor);
 }
 
 /// Covariance of (origin's position, rotation) in camera axes from the information about the
@@ -295,6 +303,21 @@ Mat6 Tracker<Limits>::PoseCovariance(const Aligned& aligned) const noexcept {
   return inflated;
 }
 
+/// Whether a point lies in space that the camera has looked through.
+template <class Limits>
+bool Tracker<Limits>::IsForeign(const Vec3& x_o) const noexcept {
+  return seen_.IsFree(x_o, config_.segmenter.free_margin_m);
+}
+
+template <class Limits>
+void Tracker<Limits>::RememberView(const DepthFrame& frame) noexcept {
+  const bool everything = !frame.mask.given() && config_.segmenter.grow_region == 0;
+  if (everything || config_.segmenter.free_margin_m == 0.0F) return;
+  constexpr float kFarthest_m = 60.0F;
+  seen_.Add(DepthReader(frame.depth, config_.segmenter.min_range_m, kFarthest_m), frame.camera,
+            T_oc_, object_mask_.box());
+}
+
 template <class Limits>
 void Tracker<Limits>::FuseObservations(Estimate& estimate) noexcept {
   const bool first = frame_index_ == 0;
@@ -307,12 +330,17 @@ void Tracker<Limits>::FuseObservations(Estimate& estimate) noexcept {
     SurfaceSample observation = samples_[std::min(static_cast<int>(index), samples_.size() - 1)];
     observation.position_m = T_oc_ * observation.position_m;
     observation.normal = R_oc * observation.normal;
+    if (IsForeign(observation.position_m)) {
+      ++estimate.rejected.observations_rejected;
+      continue;
+    }
     (void)field_.Insert(observation, frame_index_,
                         estimate.rejected);  // the outcome is in the counters
   }
   for (const EdgePoint& point : edges_) {
     const EdgePoint moved{T_oc_ * point.position_m, R_oc * point.direction, R_oc * point.normal,
                           R_oc * point.ray, point.pixel_m};
+    if (IsForeign(moved.position_m)) continue;
     model_edges_.Insert(moved, config_.field.merge_radius_m, estimate.rejected);
   }
 }
