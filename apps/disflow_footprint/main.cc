@@ -47,6 +47,10 @@ struct Edges {
       sizeof(typename disflow::EdgeSampler<L>::Edges) + sizeof(disflow::EdgeMap<L::kMaxModelEdges>);
 };
 template <class L>
+struct FreeSpace {
+  static constexpr std::size_t kBytes = sizeof(disflow::SeenSpace<L::kMaxSeenViews, L::kSeenCells>);
+};
+template <class L>
 struct Octree {
   static constexpr std::size_t kBytes = sizeof(typename disflow::ClusterStore<L>::Tree);
 };
@@ -84,6 +88,7 @@ int main() {
   PrintPart<ObjectMask>("object mask");
   PrintPart<Scratch>("scratch: segmentation, then pixel blocks");
   PrintPart<Samples>("surface samples of the frame");
+  PrintPart<FreeSpace>("views of the free space around the object");
   PrintPart<Edges>("occluding edges: frame and model");
   PrintPart<Octree>("octree");
   PrintPart<Clusters>("clusters with their local GPs");

@@ -22,7 +22,8 @@ struct Edge {
   static constexpr int kMaxSamplesPerCluster = 24;  ///< Samples kept by one local GP.
   static constexpr int kMaxTrainingSamples = 16;    ///< N, samples that one local GP is trained on.
   static constexpr int kMaxModelEdges = 512;        ///< Occluding-edge samples in the model.
-  static constexpr int kMaxSeenViews = 6;           ///< Views whose free space is remembered.
+  static constexpr int kMaxSeenViews = 5;           ///< Views whose free space is remembered.
+  static constexpr int kSeenCells = 40;             ///< Cells along either side of such a view.
   static constexpr int kMaxRegistrationPoints = 500;  ///< Samples used by one registration.
 };
 
@@ -41,6 +42,7 @@ struct Micro {
   static constexpr int kMaxTrainingSamples = 12;
   static constexpr int kMaxModelEdges = 192;
   static constexpr int kMaxSeenViews = 3;
+  static constexpr int kSeenCells = 24;
   static constexpr int kMaxRegistrationPoints = 250;
 };
 
@@ -59,6 +61,7 @@ struct Dense {
   static constexpr int kMaxTrainingSamples = 16;
   static constexpr int kMaxModelEdges = 2048;
   static constexpr int kMaxSeenViews = 6;
+  static constexpr int kSeenCells = 48;
   static constexpr int kMaxRegistrationPoints = 1500;
 };
 

@@ -111,7 +111,7 @@ class Tracker {
   Registration<Limits> registration_;
   Field field_;
   EdgeMap<Limits::kMaxModelEdges> model_edges_;
-  SeenSpace<Limits::kMaxSeenViews> seen_;
+  SeenSpace<Limits::kMaxSeenViews, Limits::kSeenCells> seen_;
   TwistFilter twist_filter_;
   TrackingMonitor monitor_;
 };

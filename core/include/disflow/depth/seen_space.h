@@ -21,7 +21,8 @@ namespace disflow {
 ///
 /// A few views are kept, each a coarse depth image of the object's surroundings in which a cell
 /// holds the nearest depth in it, so that doubt speaks for the object.
-template <int kMaxViews>
+/// @tparam kCells Along either side of a view.
+template <int kMaxViews, int kCells>
 class SeenSpace {
  public:
   void Start() noexcept {
@@ -43,9 +44,10 @@ class SeenSpace {
     view.camera = camera;
     view.box = Widened(object, depth);
     view.cell_px = (std::max(view.box.width(), view.box.height()) + kCells - 1) / kCells;
+    view.floor_m = NearestIn(depth, view.box).depth_m;
     for (int row = 0; row < kCells; ++row) {
       for (int column = 0; column < kCells; ++column)
-        view.nearest_mm[Index(column, row)] = Nearest(depth, view, column, row);
+        view.steps[Index(column, row)] = StepsAt(depth, view, column, row);
     }
   }
 
@@ -58,9 +60,10 @@ class SeenSpace {
   }
 
  private:
-  static constexpr int kCells = 48;
   static constexpr float kNewSide_rad = 0.35F;
   static constexpr float kMarginPerMetre = 0.01F;
+  static constexpr float kStep_m =
+      0.008F;  ///< Background is known as far as 2 m behind the object.
   static constexpr float kWidening = 0.3F;  ///< To each side, share of the object's size.
   static constexpr int kBorder_px = 2;      ///< Pixels around a cell that count as part of it.
 
@@ -69,8 +72,9 @@ class SeenSpace {
     PinholeCamera camera;
     PixelBox box;
     int cell_px = 1;
-    /// 0: unknown.
-    std::array<std::uint16_t, static_cast<std::size_t>(kCells* kCells)> nearest_mm;
+    float floor_m = 0.0F;  ///< Nothing in the view is nearer.
+    /// Nearest depth of a cell above the floor, in kStep_m, rounded down, plus 1; 0: unknown.
+    std::array<std::uint8_t, static_cast<std::size_t>(kCells* kCells)> steps;
   };
 
   [[nodiscard]] static std::size_t Index(int column, int row) noexcept {
@@ -91,27 +95,37 @@ class SeenSpace {
             std::min(box.v_max + margin, depth.height_px())};
   }
 
-  [[nodiscard]] static std::uint16_t Nearest(const DepthReader& depth, const View& view, int column,
-                                             int row) noexcept {
+  struct Nearest {
+    float depth_m = 1e9F;
+    int valid = 0;  ///< Pixels with depth.
+  };
+  [[nodiscard]] static Nearest NearestIn(const DepthReader& depth, const PixelBox& box) noexcept {
+    Nearest nearest;
+    for (int v = box.v_min; v < box.v_max; ++v) {
+      for (int u = box.u_min; u < box.u_max; ++u) {
+        const float depth_m = depth.At(u, v);
+        if (depth_m <= 0.0F) continue;
+        ++nearest.valid;
+        nearest.depth_m = std::min(nearest.depth_m, depth_m);
+      }
+    }
+    return nearest;
+  }
+
+  [[nodiscard]] static std::uint8_t StepsAt(const DepthReader& depth, const View& view, int column,
+                                            int row) noexcept {
     const int u = view.box.u_min + column * view.cell_px;
     const int v = view.box.v_min + row * view.cell_px;
     if (u >= view.box.u_max || v >= view.box.v_max) return 0;
-    const PixelBox cell{std::max(u - kBorder_px, 0), std::max(v - kBorder_px, 0),
-                        std::min(u + view.cell_px + kBorder_px, depth.width_px()),
-                        std::min(v + view.cell_px + kBorder_px, depth.height_px())};
-    float nearest_m = 1e9F;
-    int valid = 0;
-    for (int y = cell.v_min; y < cell.v_max; ++y) {
-      for (int x = cell.u_min; x < cell.u_max; ++x) {
-        const float depth_m = depth.At(x, y);
-        if (depth_m <= 0.0F) continue;
-        ++valid;
-        nearest_m = std::min(nearest_m, depth_m);
-      }
-    }
+    const PixelBox cell{std::max(u - kBorder_px, view.box.u_min),
+                        std::max(v - kBorder_px, view.box.v_min),
+                        std::min(u + view.cell_px + kBorder_px, view.box.u_max),
+                        std::min(v + view.cell_px + kBorder_px, view.box.v_max)};
+    const Nearest nearest = NearestIn(depth, cell);
     // Where a sensor loses many pixels something may have been in the way.
-    if (4 * valid < 3 * cell.width() * cell.height()) return 0;
-    return static_cast<std::uint16_t>(std::min(1000.0F * nearest_m, 65535.0F));
+    if (4 * nearest.valid < 3 * cell.width() * cell.height()) return 0;
+    const float steps = (nearest.depth_m - view.floor_m) / kStep_m;
+    return static_cast<std::uint8_t>(1.0F + std::min(steps, 254.0F));
   }
 
   [[nodiscard]] static bool LooksThrough(const View& view, const Vec3& x_o,
@@ -128,7 +142,9 @@ class SeenSpace {
     }
     const int column = (static_cast<int>(px.x()) - view.box.u_min) / view.cell_px;
     const int row = (static_cast<int>(px.y()) - view.box.v_min) / view.cell_px;
-    const float seen_m = 1e-3F * static_cast<float>(view.nearest_mm[Index(column, row)]);
+    const int steps = view.steps[Index(column, row)];
+    if (steps == 0) return false;
+    const float seen_m = view.floor_m + kStep_m * static_cast<float>(steps - 1);
     return x_c.z() + margin_m + kMarginPerMetre * x_c.z() < seen_m;
   }
 

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "disflow/depth/pixel_runs.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <set>
+
+#include "depth_scene.h"
+
+namespace disflow {
+namespace {
+
+using testing::Covers;
+using testing::DepthScene;
+constexpr float kJump = 0.02F;
+constexpr int kFewest_px = 30;
+
+template <int kMaxRuns>
+class Surfaces {
+ public:
+  explicit Surfaces(const DepthScene& scene, const PixelBox& box = DepthScene::image())
+      : runs_(std::make_unique<Runs>()) {
+    runs_->Build(DepthReader(scene.frame().depth, 0.1F, 10.0F), box, kJump, kFewest_px,
+                 [](int, int, int, float*) {});
+  }
+  [[nodiscard]] const auto& operator*() const { return *runs_; }
+  [[nodiscard]] const auto* operator->() const { return runs_.get(); }
+  /// Pixels in the runs of a component.
+  [[nodiscard]] int Pixels(int component) const {
+    int pixels = 0;
+    runs_->ForEachRun(
+        [&](int c, const PixelRun& run) { pixels += c == component ? run.length() : 0; });
+    return pixels;
+  }
+
+ private:
+  using Runs = PixelRuns<kMaxRuns, DepthScene::kWidth_px>;
+  std::unique_ptr<Runs> runs_;
+};
+
+TEST(PixelRuns, ThingsAtOtherDepths_AreOtherSurfaces) {
+  DepthScene scene(2.0F);
+  scene.Rectangle({20, 20, 60, 50}, 1.0F).Rectangle({90, 60, 120, 100}, 0.7F);
+  const Surfaces<2048> surfaces(scene);
+  ASSERT_EQ(surfaces->components(), 3);
+  const std::set<int> numbers{surfaces->ComponentAt(0, 0), surfaces->ComponentAt(30, 30),
+                              surfaces->ComponentAt(100, 80)};
+  EXPECT_EQ(numbers, (std::set<int>{0, 1, 2}));
+  const int box = surfaces->ComponentAt(30, 30);
+  EXPECT_EQ(surfaces->component(box).pixels, 40 * 30);
+  EXPECT_EQ(surfaces.Pixels(box), 40 * 30);
+  EXPECT_EQ(surfaces->first_run(box).v, 20);
+  EXPECT_EQ(surfaces->first_run(box).u_begin, 20);
+}
+
+TEST(PixelRuns, SlantedSurface_IsOne) {
+  DepthScene scene(3.0F);
+  // From 0.8 m to 1.6 m over 100 pixels: below the jump from pixel to pixel.
+  scene.Draw({30, 10, 130, 110},
+             [](int u, int) { return 0.8F + 0.008F * static_cast<float>(u - 30); });
+  const Surfaces<2048> surfaces(scene);
+  EXPECT_EQ(surfaces->components(), 2);
+  EXPECT_EQ(surfaces->ComponentAt(31, 60), surfaces->ComponentAt(128, 60));
+}
+
+TEST(PixelRuns, TwoArmsThatMeetBelow_AreOneSurface) {
+  DepthScene scene(2.0F);
+  scene.Rectangle({20, 10, 30, 80}, 1.0F).Rectangle({60, 10, 70, 80}, 1.0F);
+  scene.Rectangle({20, 80, 70, 90}, 1.0F);
+  const Surfaces<2048> surfaces(scene);
+  EXPECT_EQ(surfaces->components(), 2);
+  EXPECT_EQ(surfaces->ComponentAt(25, 12), surfaces->ComponentAt(65, 12));
+  EXPECT_NE(surfaces->ComponentAt(45, 12), surfaces->ComponentAt(25, 12));
+}
+
+TEST(PixelRuns, LostPixels_DoNotCutASurface) {
+  DepthScene scene(2.0F);
+  scene.Rectangle({20, 20, 80, 60}, 1.0F).Rectangle({48, 20, 51, 60}, 0.0F);
+  const Surfaces<2048> surfaces(scene);
+  EXPECT_EQ(surfaces->ComponentAt(25, 40), surfaces->ComponentAt(75, 40));
+  DepthScene split(2.0F);
+  split.Rectangle({20, 20, 80, 60}, 1.0F).Rectangle({45, 20, 55, 60}, 0.0F);
+  const Surfaces<2048> halves(split);
+  EXPECT_NE(halves->ComponentAt(25, 40), halves->ComponentAt(75, 40));
+}
+
+TEST(PixelRuns, SmallSurfaces_AreNotRemembered) {
+  DepthScene scene(2.0F);
+  scene.Rectangle({20, 20, 25, 25}, 1.0F);
+  const Surfaces<2048> surfaces(scene);
+  EXPECT_EQ(surfaces->components(), 1);
+  EXPECT_EQ(surfaces->ComponentAt(22, 22), (PixelRuns<2048, 160>::kNoComponent));
+}
+
+TEST(PixelRuns, OutOfMemory_IsCountedAndTheRestIsSound) {
+  DepthScene scene(2.0F);
+  scene.Rectangle({20, 20, 60, 50}, 1.0F);
+  const Surfaces<100> surfaces(scene);
+  EXPECT_GT(surfaces->dropped(), 0);
+  EXPECT_EQ(surfaces->ComponentAt(30, 30) == surfaces->ComponentAt(0, 0), false);
+  int last_v = 0;
+  surfaces->ForEachRun([&](int, const PixelRun& run) { last_v = run.v; });
+  EXPECT_LT(last_v, DepthScene::kHeight_px - 1);
+}
+
+TEST(PixelRuns, OnlyTheBox_IsRead) {
+  DepthScene scene(2.0F);
+  scene.Rectangle({20, 20, 60, 50}, 1.0F);
+  const PixelBox box{30, 25, 100, 90};
+  const Surfaces<2048> surfaces(scene, box);
+  surfaces->ForEachRun([&](int, const PixelRun& run) {
+    EXPECT_TRUE(Covers(box, run.u_begin, run.v));
+    EXPECT_TRUE(Covers(box, run.u_end - 1, run.v));
+  });
+  EXPECT_EQ(surfaces.Pixels(surfaces->ComponentAt(40, 30)), 30 * 25);
+}
+
+}  // namespace
+}  // namespace disflow

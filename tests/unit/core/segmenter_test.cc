@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "disflow/depth/segmenter.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "depth_scene.h"
+#include "disflow/limits.h"
+
+namespace disflow {
+namespace {
+
+using testing::Covers;
+using testing::DepthScene;
+
+constexpr PixelBox kObject{60, 30, 100, 70};
+constexpr float kObject_m = 0.8F;
+constexpr PixelBox kOther{20, 30, 40, 60};
+constexpr float kTableOffset_per_m = 0.25F;
+constexpr float kTableSlope_per_m = 0.007F;
+
+/// The object's front in the camera frame.
+Vec3 Corner(int u, int v) {
+  return DepthScene::camera().BackProject(static_cast<float>(u), static_cast<float>(v), kObject_m);
+}
+
+/// Before there is a model.
+class FirstFrame : public ::testing::Test {
+ protected:
+  Status Segment(const DepthScene& scene) {
+    const auto explains = [this](const Vec3& x_c) {
+      ++asked_;
+      return explains_(x_c);
+    };
+    return segmenter_->Segment(scene.frame(), config_, prior_, explains, *object_, counters_);
+  }
+  /// Of the pixels of a box, those that are the object.
+  [[nodiscard]] double Share(const PixelBox& box) const {
+    int inside = 0;
+    for (int v = box.v_min; v < box.v_max; ++v)
+      inside += object_->row(v).CountRun(box.u_min, box.u_max);
+    return static_cast<double>(inside) / (box.width() * box.height());
+  }
+  void ExpectExactly(const PixelBox& box) const {
+    EXPECT_EQ(Share(box), 1.0);
+    EXPECT_EQ(object_->count(), box.width() * box.height());
+  }
+
+  SegmenterConfig config_;
+  ModelPrior prior_;
+  Counters counters_;
+  bool (*explains_)(const Vec3&) = [](const Vec3&) { return false; };
+  int asked_ = 0;
+  using SegmenterType = Segmenter<profiles::Micro>;
+  std::unique_ptr<SegmenterType> segmenter_ = std::make_unique<SegmenterType>();
+  std::unique_ptr<SegmenterType::Mask> object_ = std::make_unique<SegmenterType::Mask>();
+};
+
+DepthScene ObjectOverATable() {
+  DepthScene scene(2.2F);
+  scene.Table(kTableOffset_per_m, kTableSlope_per_m).Rectangle(kObject, kObject_m);
+  return scene;
+}
+
+TEST_F(FirstFrame, NearestThing_IsTheObjectWithoutItsTable) {
+  ASSERT_EQ(Segment(ObjectOverATable()), Status::kOk);
+  ExpectExactly(kObject);
+  EXPECT_EQ(asked_, 0);
+}
+
+TEST_F(FirstFrame, ObjectThatStandsOnTheTable_IsCutOff) {
+  DepthScene scene(2.2F);
+  scene.Table(kTableOffset_per_m, kTableSlope_per_m);
+  const PixelBox standing{60, 40, 100, 90};
+  // Its foot is where the table is; no jump of depth parts them.
+  scene.Rectangle(standing, scene.At(80, 89));
+  ASSERT_EQ(Segment(scene), Status::kOk);
+  EXPECT_GT(Share(standing), 0.9);
+  EXPECT_LT(object_->count(), 1.02 * standing.width() * standing.height());
+}
+
+TEST_F(FirstFrame, RangeGate_LeavesOutWhatIsNearer) {
+  DepthScene scene = ObjectOverATable();
+  scene.Rectangle(kOther, 0.4F);
+  config_.min_range_m = 0.5F;
+  ASSERT_EQ(Segment(scene), Status::kOk);
+  ExpectExactly(kObject);
+  config_.min_range_m = 0.2F;
+  ASSERT_EQ(Segment(scene), Status::kOk);
+  ExpectExactly(kOther);
+}
+
+TEST_F(FirstFrame, RegionOfInterest_LeavesOutWhatIsOutside) {
+  DepthScene scene = ObjectOverATable();
+  scene.Rectangle(kOther, 0.4F);
+  config_.roi_x_px = 45;
+  config_.roi_y_px = 10;
+  config_.roi_width_px = 80;
+  config_.roi_height_px = 100;
+  ASSERT_EQ(Segment(scene), Status::kOk);
+  ExpectExactly(kObject);
+}
+
+TEST_F(FirstFrame, SeedPixel_ChoosesTheThingUnderIt) {
+  DepthScene scene = ObjectOverATable();
+  scene.Rectangle(kOther, 0.4F);
+  config_.seed_u_px = 80;
+  config_.seed_v_px = 50;
+  ASSERT_EQ(Segment(scene), Status::kOk);
+  ExpectExactly(kObject);
+  config_.seed_u_px = 30;
+  ASSERT_EQ(Segment(scene), Status::kOk);
+  ExpectExactly(kOther);
+}
+
+TEST_F(FirstFrame, SeedBesideEverything_FindsNothing) {
+  config_.seed_u_px = 5;
+  config_.seed_v_px = 5;
+  EXPECT_EQ(Segment(ObjectOverATable()), Status::kNoValidDepth);
+}
+
+TEST_F(FirstFrame, NothingButOnePlane_IsTheObject) {
+  EXPECT_EQ(Segment(DepthScene(1.0F)), Status::kOk);
+  EXPECT_GT(Share(DepthScene::image()), 0.99);
+}
+
+TEST_F(FirstFrame, WithoutRegionGrowing_AllOfTheRegionIsTheObject) {
+  config_.grow_region = 0;
+  config_.roi_width_px = 50;
+  config_.roi_height_px = 40;
+  ASSERT_EQ(Segment(ObjectOverATable()), Status::kOk);
+  ExpectExactly({0, 0, 50, 40});
+}
+
+TEST_F(FirstFrame, ExactMask_IsTakenAsItIs) {
+  DepthScene scene = ObjectOverATable();
+  scene.Mask(kObject);
+  ASSERT_EQ(Segment(scene), Status::kOk);
+  ExpectExactly(kObject);
+}
+
+TEST_F(FirstFrame, DilatedMask_LosesTheBackground) {
+  DepthScene scene = ObjectOverATable();
+  scene.Mask({kObject.u_min - 6, kObject.v_min - 6, kObject.u_max + 6, kObject.v_max + 6});
+  ASSERT_EQ(Segment(scene), Status::kOk);
+  ExpectExactly(kObject);
+}
+
+TEST_F(FirstFrame, EmptyMask_IsRefused) {
+  DepthScene scene = ObjectOverATable();
+  scene.Mask({0, 0, 0, 0});
+  EXPECT_EQ(Segment(scene), Status::kEmptyMask);
+}
+
+TEST_F(FirstFrame, NoDepth_IsRefused) {
+  EXPECT_EQ(Segment(DepthScene(0.0F)), Status::kNoValidDepth);
+}
+
+/// With a model: a plate as large as the object, in the predicted place.
+class LaterFrame : public FirstFrame {
+ protected:
+  LaterFrame() {
+    prior_.known = true;
+    const Vec3 low = Corner(kObject.u_min, kObject.v_min);
+    const Vec3 high = Corner(kObject.u_max, kObject.v_max);
+    prior_.T_oc = PoseCameraFromObject(Mat3::Identity(), Vec3(0.5F * (low + high))).Inverse();
+    prior_.box_max_m = 0.5F * (high - low) + Vec3(0.0F, 0.0F, 0.02F);
+    prior_.box_min_m = -prior_.box_max_m;
+    explains_ = [](const Vec3& x_c) {
+      const Vec2 px = DepthScene::camera().Project(x_c);
+      return Covers(kObject, static_cast<int>(px.x() + 0.5F), static_cast<int>(px.y() + 0.5F)) &&
+             std::abs(x_c.z() - kObject_m) < 0.01F;
+    };
+  }
+};
+
+TEST_F(LaterFrame, ObjectAlone_IsFoundWhereItIsPredicted) {
+  ASSERT_EQ(Segment(ObjectOverATable()), Status::kOk);
+  ExpectExactly(kObject);
+}
+
+TEST_F(LaterFrame, ThingFarFromTheModel_IsNotTheObject) {
+  DepthScene scene = ObjectOverATable();
+  scene.Rectangle(kOther, 0.4F);
+  ASSERT_EQ(Segment(scene), Status::kOk);
+  ExpectExactly(kObject);
+}
+
+TEST_F(LaterFrame, ThingBesideTheModelAtAnotherDepth_IsNotTheObject) {
+  DepthScene scene = ObjectOverATable();
+  // Within the margin of the model, but nothing of it is known surface.
+  scene.Rectangle({104, 30, 108, 70}, kObject_m - 0.02F);
+  ASSERT_EQ(Segment(scene), Status::kOk);
+  EXPECT_EQ(Share(kObject), 1.0);
+  EXPECT_EQ(Share({104, 30, 108, 70}), 0.0);
+  EXPECT_GT(asked_, 0);
+}
+
+TEST_F(LaterFrame, DilatedMask_LosesTheBackground) {
+  DepthScene scene = ObjectOverATable();
+  scene.Mask({kObject.u_min - 6, kObject.v_min - 6, kObject.u_max + 6, kObject.v_max + 6});
+  ASSERT_EQ(Segment(scene), Status::kOk);
+  ExpectExactly(kObject);
+}
+
+TEST_F(LaterFrame, ErodedMask_IsFilledUpFromTheModel) {
+  DepthScene scene = ObjectOverATable();
+  scene.Mask({kObject.u_min + 6, kObject.v_min + 6, kObject.u_max - 6, kObject.v_max - 6});
+  ASSERT_EQ(Segment(scene), Status::kOk);
+  EXPECT_GT(Share(kObject), 0.9);
+  EXPECT_LE(object_->count(), kObject.width() * kObject.height());
+}
+
+TEST_F(LaterFrame, MaskThatCameLate_IsCorrectedByTheModel) {
+  DepthScene scene = ObjectOverATable();
+  scene.Mask({kObject.u_min - 12, kObject.v_min, kObject.u_max - 12, kObject.v_max});
+  ASSERT_EQ(Segment(scene), Status::kOk);
+  EXPECT_GT(Share(kObject), 0.9);
+  EXPECT_LE(object_->count(), kObject.width() * kObject.height());
+}
+
+TEST_F(LaterFrame, Doubt_WidensTheReach) {
+  DepthScene scene(2.2F);
+  // 6 cm beside the prediction: farther than model_margin_m, nearer than with lost_margin_m.
+  const int shift_px = static_cast<int>(0.06F * DepthScene::kFocal_px / kObject_m);
+  scene.Rectangle(
+      {kObject.u_min + shift_px, kObject.v_min, kObject.u_max + shift_px, kObject.v_max},
+      kObject_m);
+  const PixelBox far_edge{kObject.u_max + shift_px - 2, 45, kObject.u_max + shift_px, 55};
+  ASSERT_EQ(Segment(scene), Status::kOk);
+  EXPECT_EQ(Share(far_edge), 0.0);
+  prior_.doubtful = true;
+  ASSERT_EQ(Segment(scene), Status::kOk);
+  EXPECT_EQ(Share(far_edge), 1.0);
+}
+
+}  // namespace
+}  // namespace disflow

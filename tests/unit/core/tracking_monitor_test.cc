@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "disflow/flow/tracking_monitor.h"
+
+#include <gtest/gtest.h>
+
+namespace disflow {
+namespace {
+
+using Evidence = TrackingMonitor::Evidence;
+constexpr StampNs kFrame_ns = 33'333'333;
+
+Evidence Good() { return {true, 0.98F, 0.0F, 450, 500, 0.0005F, 0.005F}; }
+Evidence With(void (*spoil)(Evidence&)) {
+  Evidence evidence = Good();
+  spoil(evidence);
+  return evidence;
+}
+
+class TrackingMonitorTest : public ::testing::Test {
+ protected:
+  TrackingMonitorTest() { monitor_.Start(config_, 0); }
+
+  /// The next frame, as the tracker asks and tells.
+  void Offer(Evidence evidence) {
+    stamp_ns_ += kFrame_ns;
+    evidence.registered = monitor_.Accepts(evidence, stamp_ns_);
+    monitor_.Update(evidence, stamp_ns_);
+  }
+  void Offer(const Evidence& evidence, int frames) {
+    for (int i = 0; i < frames; ++i) Offer(evidence);
+  }
+  void Track() {
+    Offer(Good(), 10);
+    ASSERT_EQ(monitor_.state(), TrackingState::kTracking);
+  }
+  [[nodiscard]] bool Accepts(const Evidence& evidence) const {
+    return monitor_.Accepts(evidence, stamp_ns_ + kFrame_ns);
+  }
+
+  MonitorConfig config_;
+  TrackingMonitor monitor_;
+  StampNs stamp_ns_ = 0;
+};
+
+TEST_F(TrackingMonitorTest, FirstFrames_AreInitialising) {
+  EXPECT_EQ(monitor_.state(), TrackingState::kInitialising);
+  Offer(Good());
+  EXPECT_EQ(monitor_.state(), TrackingState::kInitialising);
+  Offer(Good(), 9);
+  EXPECT_EQ(monitor_.state(), TrackingState::kTracking);
+}
+
+TEST_F(TrackingMonitorTest, FollowedPose_IsAcceptedOnLittle) {
+  Track();
+  EXPECT_TRUE(Accepts(With([](Evidence& e) { e.score = 0.31F; })));
+  EXPECT_TRUE(Accepts(With([](Evidence& e) { e.conflict = 0.39F; })));
+  EXPECT_TRUE(Accepts(With([](Evidence& e) { e.inliers = 80; })));
+}
+
+TEST_F(TrackingMonitorTest, FollowedPose_IsRefusedOnLess) {
+  Track();
+  EXPECT_FALSE(Accepts(With([](Evidence& e) { e.score = 0.29F; })));
+  EXPECT_FALSE(Accepts(With([](Evidence& e) { e.conflict = 0.41F; })));
+  EXPECT_FALSE(Accepts(With([](Evidence& e) { e.inliers = 70; })));
+  EXPECT_FALSE(Accepts(With([](Evidence& e) { e.registered = false; })));
+  EXPECT_FALSE(Accepts(With([](Evidence& e) { e.inliers = e.points = 0; })));
+}
+
+TEST_F(TrackingMonitorTest, SearchedPose_NeedsMore) {
+  Track();
+  const Evidence weak_score = With([](Evidence& e) { e.score = 0.74F; });
+  const Evidence some_conflict = With([](Evidence& e) { e.conflict = 0.16F; });
+  const Evidence few_inliers = With([](Evidence& e) { e.inliers = 270; });
+  for (const Evidence& evidence : {weak_score, some_conflict, few_inliers})
+    EXPECT_TRUE(Accepts(evidence));
+  Offer(Evidence{});
+  EXPECT_TRUE(monitor_.Doubts(stamp_ns_));
+  for (const Evidence& evidence : {weak_score, some_conflict, few_inliers})
+    EXPECT_FALSE(Accepts(evidence));
+  EXPECT_TRUE(Accepts(Good()));
+}
+
+TEST_F(TrackingMonitorTest, LongGap_IsDoubtToo) {
+  Track();
+  EXPECT_FALSE(monitor_.Doubts(stamp_ns_ + kFrame_ns));
+  EXPECT_TRUE(monitor_.Doubts(stamp_ns_ + 6 * kFrame_ns));
+  EXPECT_FALSE(
+      monitor_.Accepts(With([](Evidence& e) { e.score = 0.7F; }), stamp_ns_ + 6 * kFrame_ns));
+}
+
+TEST_F(TrackingMonitorTest, TrackingIsClaimed_OnlyWithinEveryBound) {
+  for (void (*spoil)(Evidence&) : {
+           +[](Evidence& e) { e.score = 0.59F; }, +[](Evidence& e) { e.conflict = 0.16F; },
+           +[](Evidence& e) { e.position_std_m = 0.0068F; },  // 3 sigma are 2 cm
+           +[](Evidence& e) { e.rotation_std_rad = 0.059F; }  // 3 sigma are 10 degrees
+       }) {
+    Offer(Good(), 10);
+    ASSERT_EQ(monitor_.state(), TrackingState::kTracking);
+    Offer(With(spoil));
+    EXPECT_EQ(monitor_.state(), TrackingState::kDegraded);
+    EXPECT_FALSE(monitor_.Doubts(stamp_ns_));
+  }
+  Offer(Good());
+  EXPECT_EQ(monitor_.state(), TrackingState::kTracking);
+}
+
+TEST_F(TrackingMonitorTest, Loss_IsStatedWithinThreeFrames) {
+  Track();
+  Offer(Evidence{});
+  EXPECT_EQ(monitor_.state(), TrackingState::kDegraded);
+  Offer(Evidence{});
+  EXPECT_EQ(monitor_.state(), TrackingState::kDegraded);
+  Offer(Evidence{});
+  EXPECT_EQ(monitor_.state(), TrackingState::kLost);
+  EXPECT_EQ(monitor_.quality(), 0);
+  EXPECT_EQ(monitor_.missed(), 3);
+}
+
+TEST_F(TrackingMonitorTest, Quality_FallsBeforeTheTrackIsLost) {
+  Track();
+  int before = monitor_.quality();
+  for (int i = 0; i < 2; ++i) {
+    Offer(Evidence{});
+    EXPECT_NE(monitor_.state(), TrackingState::kLost);
+    EXPECT_LE(monitor_.quality(), before / 2);
+    before = monitor_.quality();
+  }
+}
+
+TEST_F(TrackingMonitorTest, Quality_FallsWithEveryKindOfDoubt) {
+  Track();
+  const int best = monitor_.quality();
+  for (void (*spoil)(Evidence&) :
+       {+[](Evidence& e) { e.score = 0.8F; }, +[](Evidence& e) { e.conflict = 0.1F; },
+        +[](Evidence& e) { e.position_std_m = 0.003F; },
+        +[](Evidence& e) { e.rotation_std_rad = 0.03F; }}) {
+    Offer(With(spoil));
+    EXPECT_LT(monitor_.quality(), best);
+    EXPECT_GT(monitor_.quality(), 0);
+  }
+  Offer(Good());
+  EXPECT_EQ(monitor_.quality(), best);
+}
+
+TEST_F(TrackingMonitorTest, FoundAgain_IsRecoveredForAWhile) {
+  Track();
+  Offer(Evidence{}, 5);
+  Offer(Good());
+  EXPECT_EQ(monitor_.state(), TrackingState::kRecovered);
+  EXPECT_FALSE(monitor_.Doubts(stamp_ns_));
+  Offer(Good(), 9);
+  EXPECT_EQ(monitor_.state(), TrackingState::kTracking);
+}
+
+TEST_F(TrackingMonitorTest, LostForLong_ShouldRestart) {
+  Track();
+  Offer(Evidence{}, 40);
+  EXPECT_FALSE(monitor_.ShouldRestart(stamp_ns_));
+  Offer(Evidence{}, 10);
+  EXPECT_TRUE(monitor_.ShouldRestart(stamp_ns_));
+  monitor_.Start(config_, stamp_ns_);
+  EXPECT_FALSE(monitor_.ShouldRestart(stamp_ns_));
+  EXPECT_EQ(monitor_.state(), TrackingState::kInitialising);
+}
+
+}  // namespace
+}  // namespace disflow
