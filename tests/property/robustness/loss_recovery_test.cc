@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include "tracked_sequence.h"
+
+namespace disflow::testing {
+namespace {
+
+using Fate = TrackedSequence::Fate;
+using host::ObjectKind;
+
+constexpr int kFrames = 60;
+constexpr int kGone = 30;  // the simulated curtain comes down after 1 s and goes up after 1.5 s
+constexpr int kBack = 45;
+constexpr int kLossFrames = 3;
+
+double PositionStd(const TrackedFrame& frame) {
+  return std::sqrt(
+      static_cast<double>(frame.estimate.pose_covariance.topLeftCorner<3, 3>().trace()));
+}
+double RotationStd(const TrackedFrame& frame) {
+  return std::sqrt(
+      static_cast<double>(frame.estimate.pose_covariance.bottomRightCorner<3, 3>().trace()));
+}
+
+/// Whatever happens, no sequence of this file may be lied about.
+class Loss : public ::testing::TestWithParam<ObjectKind> {
+ protected:
+  TrackedSequence& Track(
+      const host::SimulationOptions& options, int frames,
+      const std::function<Fate(int)>& fate = [](int) { return Fate::kSeen; }) {
+    sequence_ = std::make_unique<TrackedSequence>(options);
+    sequence_->Run(frames, fate);
+    return *sequence_;
+  }
+  void TearDown() override {
+    ASSERT_NE(sequence_, nullptr);
+    EXPECT_LE(sequence_->LongestLie(), kLossFrames);
+  }
+  void ExpectSameObjectFrame() const {
+    EXPECT_EQ(sequence_->last().estimate.reset_counter, 0);
+    EXPECT_EQ(sequence_->last().estimate.state, TrackingState::kTracking);
+    EXPECT_LT(sequence_->last().off_m, 0.004);
+    EXPECT_LT(sequence_->last().off_deg, 2.0);
+  }
+
+ private:
+  std::unique_ptr<TrackedSequence> sequence_;
+};
+
+TEST_P(Loss, FullOcclusion_IsStatedAtOnceAndSurvived) {
+  host::SimulationOptions options = Scene(GetParam(), kFrames);
+  options.occluder = host::OccluderKind::kCurtain;
+  const TrackedSequence& sequence = Track(options, kFrames);
+  const TrackedFrame& before = sequence.At(kGone - 1);
+  ASSERT_EQ(before.estimate.state, TrackingState::kTracking);
+  EXPECT_EQ(sequence.At(kGone + kLossFrames - 1).estimate.state, TrackingState::kLost);
+  // The quality tells before the state does.
+  for (int i = kGone; i < kGone + kLossFrames; ++i)
+    EXPECT_LE(sequence.At(i).estimate.quality, before.estimate.quality / 2);
+  for (int i = kGone; i < kBack; ++i) {
+    EXPECT_NE(sequence.At(i).estimate.status, Status::kOk);
+    EXPECT_GT(PositionStd(sequence.At(i)), PositionStd(sequence.At(i - 1))) << "frame " << i;
+    EXPECT_GT(RotationStd(sequence.At(i)), RotationStd(sequence.At(i - 1))) << "frame " << i;
+  }
+  EXPECT_EQ(sequence.At(kBack + 1).estimate.state, TrackingState::kRecovered);
+  ExpectSameObjectFrame();
+}
+
+TEST_P(Loss, FullOcclusionWithoutAMask_IsSurvived) {
+  host::SimulationOptions options = Scene(GetParam(), kFrames);
+  options.occluder = host::OccluderKind::kCurtain;
+  options.mask = host::MaskKind::kNone;
+  const TrackedSequence& sequence = Track(options, kFrames);
+  EXPECT_EQ(sequence.At(kGone + kLossFrames - 1).estimate.state, TrackingState::kLost);
+  ExpectSameObjectFrame();
+}
+
+TEST_P(Loss, DroppedFrames_AreBridged) {
+  const TrackedSequence& sequence = Track(Scene(GetParam(), kFrames), kFrames, [](int i) {
+    return i >= kGone && i < kBack ? Fate::kDropped : Fate::kSeen;
+  });
+  EXPECT_LT(sequence.At(kBack + 2).off_m, 0.004);
+  ExpectSameObjectFrame();
+}
+
+TEST_P(Loss, ObjectThatLeavesTheView_IsFoundAgainWhenItComesBack) {
+  constexpr int kLeaving = 100;
+  host::SimulationOptions options = Scene(GetParam(), kLeaving);
+  options.motion = host::MotionKind::kLeaving;
+  const TrackedSequence& sequence = Track(options, kLeaving);
+  EXPECT_TRUE(sequence.WasEver(TrackingState::kLost));
+  EXPECT_TRUE(sequence.WasEver(TrackingState::kRecovered));
+  ExpectSameObjectFrame();
+}
+
+TEST_P(Loss, ObjectThatStaysAway_IsStartedAnew) {
+  constexpr int kAway = 20 + 55;  // longer than monitor.reinitialise_after_s
+  constexpr int kEnd = kAway + 15;
+  const TrackedSequence& sequence = Track(Scene(GetParam(), kEnd), kEnd, [](int i) {
+    return i >= 20 && i < kAway ? Fate::kBlank : Fate::kSeen;
+  });
+  EXPECT_EQ(sequence.At(20 + 30).estimate.reset_counter, 0);
+  EXPECT_EQ(sequence.At(kAway).estimate.state, TrackingState::kInitialising);
+  EXPECT_EQ(sequence.last().estimate.reset_counter, 1);
+  EXPECT_EQ(sequence.last().estimate.state, TrackingState::kTracking);
+  EXPECT_LT(sequence.last().off_m, 0.003);  // of where it was at the new start
+}
+
+TEST_P(Loss, ObjectThatTurnedTooFar_IsNotTakenForTheSameFrame) {
+  // A quarter turn goes unseen.
+  host::SimulationOptions options = Scene(GetParam(), 300);
+  options.motion = host::MotionKind::kRotate360;
+  constexpr int kEnd = 20 + 75 + 60;
+  const TrackedSequence& sequence = Track(
+      options, kEnd, [](int i) { return i >= 20 && i < 20 + 75 ? Fate::kDropped : Fate::kSeen; });
+  EXPECT_EQ(sequence.last().estimate.state, TrackingState::kTracking);
+  EXPECT_EQ(sequence.last().estimate.reset_counter, 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, Loss, ::testing::Values(ObjectKind::kBox, ObjectKind::kBottle),
+                         [](const ::testing::TestParamInfo<ObjectKind>& test) {
+                           return test.param == ObjectKind::kBox ? "Box" : "Bottle";
+                         });
+
+}  // namespace
+}  // namespace disflow::testing
