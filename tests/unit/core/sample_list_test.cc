@@ -78,7 +78,7 @@ TEST(SampleList, Distances_AreThoseOfTheSamples) {
   const Vec3 x_m = kOrigin_m + Vec3(0.01F, 0.02F, -0.005F);
   const Vec3 normal = Vec3(1.0F, 2.0F, -1.0F).normalized();
   const auto all = list.SquaredDistances(x_m);
-  const auto across = list.SquaredDistances(x_m, normal);
+  const auto across = list.SquaredDistancesAcross(x_m, normal);
   for (int i = 0; i < list.size(); ++i) {
     const Vec3 offset = x_m - list.position_m(i);
     const auto k = static_cast<std::size_t>(i);

@@ -103,6 +103,12 @@ class DistanceField {
       ++counters.observations_rejected;
       return Fusion::kRejected;
     }
+    Handle owner = kNoHandle;
+    const int nearest = FindSample(observation, owner);
+    if (owner != kNoHandle && IsFrozen(observation, owner, nearest)) {
+      store_[owner].last_frame = frame;
+      return Fusion::kFrozen;
+    }
     const Match match = FindMatch(observation.position_m, observation.normal,
                                   config_.merge_radius_m * 2.0F, config_.crease_cos);
     if (match.found) {
@@ -112,8 +118,6 @@ class DistanceField {
         return Fusion::kRejected;
       }
     }
-    Handle owner = kNoHandle;
-    const int nearest = FindSample(observation, owner);
     if (owner != kNoHandle) {
       store_[owner].last_frame = frame;
       return Merge(observation, owner, nearest);
@@ -124,7 +128,7 @@ class DistanceField {
   /// Trains up to `budget` local GPs, those that changed most first. @return How many were trained.
   int Retrain(int budget) noexcept;
 
-  /// Whether any cluster waits for training.
+  /// Distance and gradient as one cluster knows them.
   [[nodiscard]] float EvaluateCluster(const ClusterType& cluster, const Vec3& x_m,
                                       Vec3& gradient) const noexcept {
     Match match;
@@ -136,7 +140,7 @@ class DistanceField {
   /// Squared distance along the surface from x to the cluster's nearest sample.
   [[nodiscard]] static float TangentialDistanceSquared(const ClusterType& cluster,
                                                        const Vec3& x_m) noexcept {
-    const auto squared_m2 = cluster.samples.SquaredDistances(x_m, cluster.mean_normal);
+    const auto squared_m2 = cluster.samples.SquaredDistancesAcross(x_m, cluster.mean_normal);
     float best = 1e9F;
     for (int i = 0; i < cluster.samples.size(); ++i)
       best = std::min(best, squared_m2[static_cast<std::size_t>(i)]);
@@ -194,11 +198,17 @@ class DistanceField {
     return nearest;
   }
 
+  /// A sample that was observed often keeps still, unless a much better look at it is had.
+  [[nodiscard]] bool IsFrozen(const SurfaceSample& observation, Handle owner,
+                              int index) const noexcept {
+    const auto& samples = store_[owner].samples;
+    return samples.observations(index) >= config_.freeze_after &&
+           !(observation.fused_variance_m2 < 0.25F * samples.variance_m2(index));
+  }
+
   /// Kalman update of a sample's position along its normal, and of its normal.
   [[nodiscard]] Fusion Merge(const SurfaceSample& observation, Handle owner, int index) noexcept {
     ModelSample sample = store_[owner].samples[index];
-    const bool better = observation.fused_variance_m2 < 0.25F * sample.variance_m2;
-    if (sample.observations >= config_.freeze_after && !better) return Fusion::kFrozen;
     const Vec3 offset = observation.position_m - sample.position_m;
     const float cosine = observation.normal.dot(sample.normal);
     // Two points of an arc lie on a chord that is perpendicular to the mean of their normals.

@@ -50,6 +50,7 @@ class SampleList {
                                       static_cast<float>(position_[2][k]));
   }
   [[nodiscard]] int observations(int i) const noexcept { return rest(i).observations; }
+  [[nodiscard]] float variance_m2(int i) const noexcept { return rest(i).variance_m2.value(); }
   [[nodiscard]] Vec3 normal(int i) const noexcept { return rest(i).normal.direction(); }
   [[nodiscard]] ModelSample operator[](int i) const noexcept {
     const Rest& r = rest(i);
@@ -57,22 +58,19 @@ class SampleList {
             r.observations};
   }
 
-  /// Squared distances from x to the samples, without their part along a unit normal.
-  /// @return Elements from size() on have no meaning.
-  [[nodiscard]] std::array<float, static_cast<std::size_t>(kMaxSamples)> SquaredDistances(
-      const Vec3& x_m, const Vec3& normal = Vec3::Zero()) const noexcept {
-    std::array<float, static_cast<std::size_t>(kMaxSamples)> squared_m2;
-    const Vec3 offset_m = x_m - origin_m_;
-    // In whole groups, for vector instructions.
-    const auto count = static_cast<std::size_t>((size_ + kGroup - 1) / kGroup * kGroup);
-    for (std::size_t i = 0; i < count; ++i) {
-      const float x = offset_m.x() - step_m_ * static_cast<float>(position_[0][i]);
-      const float y = offset_m.y() - step_m_ * static_cast<float>(position_[1][i]);
-      const float z = offset_m.z() - step_m_ * static_cast<float>(position_[2][i]);
-      const float along = x * normal.x() + y * normal.y() + z * normal.z();
-      squared_m2[i] = x * x + y * y + z * z - along * along;
-    }
-    return squared_m2;
+  using Distances = std::array<float, static_cast<std::size_t>(kMaxSamples)>;
+
+  /// Squared distances from x to the samples. Elements from size() on have no meaning.
+  [[nodiscard]] Distances SquaredDistances(const Vec3& x_m) const noexcept {
+    return Measure(x_m, [](float x, float y, float z) { return x * x + y * y + z * z; });
+  }
+  /// The same, measured across a direction of unit length.
+  [[nodiscard]] Distances SquaredDistancesAcross(const Vec3& x_m,
+                                                 const Vec3& direction) const noexcept {
+    return Measure(x_m, [&direction](float x, float y, float z) {
+      const float along = x * direction.x() + y * direction.y() + z * direction.z();
+      return x * x + y * y + z * z - along * along;
+    });
   }
 
   /// @return false when full; the list is then unchanged.
@@ -130,6 +128,21 @@ class SampleList {
     std::uint16_t observations;
   };
   static_assert(sizeof(Rest) == 10);
+
+  /// measure(x, y, z) of the offsets from the samples to a point.
+  template <class Function>
+  [[nodiscard]] Distances Measure(const Vec3& x_m, Function&& measure) const noexcept {
+    Distances result;
+    const Vec3 offset_m = x_m - origin_m_;
+    // In whole groups, for vector instructions.
+    const auto count = static_cast<std::size_t>((size_ + kGroup - 1) / kGroup * kGroup);
+    for (std::size_t i = 0; i < count; ++i) {
+      result[i] = measure(offset_m.x() - step_m_ * static_cast<float>(position_[0][i]),
+                          offset_m.y() - step_m_ * static_cast<float>(position_[1][i]),
+                          offset_m.z() - step_m_ * static_cast<float>(position_[2][i]));
+    }
+    return result;
+  }
 
   [[nodiscard]] const Rest& rest(int i) const noexcept {
     assert(i >= 0 && i < size_);
