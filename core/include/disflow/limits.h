@@ -17,7 +17,7 @@ struct Edge {
   static constexpr int kMaxBlocks = 6144;  ///< Pixel blocks that cover the object's bounding box.
   static constexpr int kMaxSurfaceSamples = 2048;   ///< M, surface samples per frame.
   static constexpr int kMaxEdgePoints = 192;        ///< Occluding-edge points per frame.
-  static constexpr int kMaxNodes = 1024;            ///< Octree nodes.
+  static constexpr int kMaxNodes = 896;             ///< Octree nodes.
   static constexpr int kMaxClusters = 640;          ///< Local GPs.
   static constexpr int kMaxSamplesPerCluster = 24;  ///< Samples kept by one local GP.
   static constexpr int kMaxTrainingSamples = 16;    ///< N, samples that one local GP is trained on.
