@@ -55,6 +55,7 @@ struct FieldConfig {
   float merge_radius_m = 0.004F;
   float overlap_m = 0.006F;
   float crease_cos = 0.7F;
+  float unknown_curvature_per_m = 20.0F;
   float reject_floor_m = 0.004F;
   int freeze_after = 15;
   int mature_after = 1;
@@ -72,8 +73,8 @@ struct RegistrationConfig {
   float match_radius_m = 0.010F;
   float min_gradient_norm = 0.3F;
   float damping = 1e-4F;
-  float temporal_std_m = 0.02F;
-  float temporal_std_rad = 0.1F;
+  float temporal_std_m = 0.005F;
+  float temporal_std_rad = 0.03F;
   float edge_std_px = 0.3F;
   float hypothesis_score = 0.75F;
   int hypothesis_iterations = 3;

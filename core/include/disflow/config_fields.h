@@ -95,6 +95,8 @@ constexpr void VisitFields(ConfigType& config, Visitor&& visitor) {
         "neighbouring cells' samples this close to the border are trained on too");
   field("field.crease_cos", fld.crease_cos, 0.0, 0.99, "1",
         "normals whose cosine is smaller belong to different sides of a crease");
+  field("field.unknown_curvature_per_m", fld.unknown_curvature_per_m, 0.0, 1000.0, "1/m",
+        "how much the surface may bend where the samples end");
   field("field.reject_floor_m", fld.reject_floor_m, 0.0, 1.0, "m",
         "observations farther than this plus 3 sigma from known surface are not fused");
   field("field.freeze_after", fld.freeze_after, 1, 250, "1",
@@ -109,7 +111,7 @@ constexpr void VisitFields(ConfigType& config, Visitor&& visitor) {
   field("registration.iterations", reg.iterations, 1, 50, "1",
         "closed-form steps per frame at most");
   field("registration.robust_scale_start_m", reg.robust_scale_start_m, 1e-4, 1.0, "m",
-        "robust kernel width at the first step, halved at each");
+        "robust kernel width at the first step of a search, halved at each; half as much without");
   field("registration.robust_scale_sigmas", reg.robust_scale_sigmas, 0.5, 20.0, "sigma",
         "robust kernel width at the last step");
   field("registration.truncation_m", reg.truncation_m, 1e-4, 1.0, "m",

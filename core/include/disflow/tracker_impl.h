@@ -168,15 +168,21 @@ typename Tracker<Limits>::Aligned Tracker<Limits>::Register(const DepthFrame& fr
   // Starting poses are compared on a part of the samples: they are many and need not be precise.
   const EveryNth some(samples_, PoseSearch<Limits>::kPoints);
   registration_.SetObservations(some, edges_);
-  const int search = monitor_.Doubts(frame.stamp_ns) ? monitor_.missed() + 1 : 0;
-  const auto start = PoseSearch<Limits>::Find(
-      registration_, field_, model_edges_, config_.registration,
-      {T_oc_, T_oc_previous_, frame_index_ >= kFramesUntilVelocity, search});
+  const typename PoseSearch<Limits>::Prior prior{
+      T_oc_, T_oc_previous_, frame_index_ >= kFramesUntilVelocity,
+      monitor_.Doubts(frame.stamp_ns) ? monitor_.missed() + 1 : 0};
+  const DepthReader depth(frame.depth, config_.segmenter.min_range_m,
+                          config_.segmenter.max_range_m);
+  const auto conflict = [&](const PoseObjectFromCamera& T_oc) {
+    return Compare(field_, T_oc, frame.camera, depth).conflict();
+  };
+  const auto start =
+      PoseSearch<Limits>(registration_, field_, model_edges_, config_.registration, prior)
+          .Find(conflict);
   registration_.SetObservations(samples_, edges_);
-  // Where the prediction was not believed it must not pull either.
-  const PoseObjectFromCamera& T_expected = start.tried > 1 ? start.T_oc : T_oc_;
-  Aligned aligned = registration_.Align(field_, model_edges_, config_.registration, start.T_oc,
-                                        T_expected, config_.registration.iterations);
+  Aligned aligned =
+      registration_.Align(field_, model_edges_, config_.registration, start.T_oc, start.T_expected,
+                          start.robust_scale_m, config_.registration.iterations);
   estimate.hypotheses = static_cast<std::uint8_t>(start.tried);
   estimate.iterations = static_cast<std::uint8_t>(aligned.iterations);
   estimate.inliers = static_cast<std::uint16_t>(aligned.inliers);

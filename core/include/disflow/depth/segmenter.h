@@ -157,15 +157,34 @@ class Segmenter {
           Probe(depth, frame.camera, explains, run, vote(c));
       });
     }
-    int most = 0;
-    for (int c = 0; c < count; ++c) {
-      if (surfaces_.component(c).pixels > surfaces_.component(most).pixels) most = c;
+    for (int c = 0; c < count; ++c)
       vote(c).chosen = !prior.doubtful && Belongs(vote(c), surfaces_.component(c).pixels, masked);
+    if (ExplainsTooLittle(masked)) ChooseUnexplained(masked);
+  }
+
+  /// Whether next to nothing of what could be the object is chosen: the prediction is far off.
+  [[nodiscard]] bool ExplainsTooLittle(bool masked) const noexcept {
+    constexpr int kFewestPercent = 20;
+    int all = 0;
+    int chosen = 0;
+    for (int c = 0; c < surfaces_.components(); ++c) {
+      const Vote& v = votes_[static_cast<std::size_t>(c)];
+      const int pixels = masked ? v.masked : surfaces_.component(c).pixels;
+      all += pixels;
+      if (v.chosen) chosen += pixels;
     }
-    const bool none =
-        std::none_of(votes_.begin(), votes_.end(), [](const Vote& v) { return v.chosen; });
-    // A prediction that is far off explains nothing.
-    if (none && count > 0 && !masked) vote(most).chosen = true;
+    return masked ? 100 * chosen < kFewestPercent * all : chosen == 0;
+  }
+
+  /// Without the model's opinion: what the mask covers most of, or the largest surface.
+  void ChooseUnexplained(bool masked) noexcept {
+    int most = 0;
+    for (int c = 0; c < surfaces_.components(); ++c) {
+      const int pixels = surfaces_.component(c).pixels;
+      if (masked) vote(c).chosen = 2 * vote(c).masked >= pixels;
+      if (pixels > surfaces_.component(most).pixels) most = c;
+    }
+    if (!masked && surfaces_.components() > 0) vote(most).chosen = true;
   }
 
   [[nodiscard]] static bool Belongs(const Vote& vote, int pixels, bool masked) noexcept {

@@ -21,12 +21,13 @@ class DistanceField {
   /// What registration needs to know of the field at an observed point.
   struct Match {
     bool found = false;
-    bool normal_mismatch = false;  ///< Surface is near, but none whose normal agrees.
-    float distance_m = 0.0F;       ///< d
-    Vec3 gradient = Vec3::Zero();  ///< grad d
-    float variance_m2 = 0.0F;      ///< V[d]
-    float generation = 0.0F;       ///< Of the piece of surface, see Cluster.
-    Handle cluster = kNoHandle;    ///< Where it was found, for Reuse().
+    bool normal_mismatch = false;     ///< Surface is near, but none whose normal agrees.
+    float distance_m = 0.0F;          ///< d
+    Vec3 gradient = Vec3::Zero();     ///< grad d
+    float variance_m2 = 0.0F;         ///< V[d]
+    float beyond_variance_m2 = 0.0F;  ///< Its part that comes from the distance to the samples.
+    float generation = 0.0F;          ///< Of the piece of surface, see Cluster.
+    Handle cluster = kNoHandle;       ///< Where it was found, for Reuse().
   };
 
   enum class Fusion : std::uint8_t { kAdded, kMerged, kFrozen, kRejected, kRefused };
@@ -60,16 +61,25 @@ class DistanceField {
       return match;
     }
     const ClusterType& cluster = store_[handle];
-    if (TangentialDistanceSquared(cluster, x_m) > radius_m * radius_m) return match;
+    const float along_squared = TangentialDistanceSquared(cluster, x_m);
+    if (along_squared > radius_m * radius_m) return match;
+    // Beyond the data the surface goes on with an unknown curvature k: V = (k s^2 / 2)^2.
+    const float rise_m = 0.5F * config_.unknown_curvature_per_m * along_squared;
     Evaluate(cluster, x_m, match);
+    match.beyond_variance_m2 = rise_m * rise_m;
+    match.variance_m2 += match.beyond_variance_m2;
     match.cluster = handle;
     return match;
   }
 
   /// The same piece of surface as in an earlier match, seen from a point nearby: no search.
-  [[nodiscard]] Match Reuse(Handle cluster, const Vec3& x_m) const noexcept {
+  /// @param beyond_variance_m2 As in the earlier match.
+  [[nodiscard]] Match Reuse(Handle cluster, float beyond_variance_m2,
+                            const Vec3& x_m) const noexcept {
     Match match;
     Evaluate(store_[cluster], x_m, match);
+    match.beyond_variance_m2 = beyond_variance_m2;
+    match.variance_m2 += beyond_variance_m2;
     match.cluster = cluster;
     return match;
   }

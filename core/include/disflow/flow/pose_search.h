@@ -10,7 +10,7 @@
 namespace disflow {
 
 /// Fast motion and loss: when the predicted pose explains the frame badly, a bounded set of other
-/// starts is tried, each for a few steps, and the best explained one wins.
+/// starts is tried, each for a few steps, and the most plausible one wins.
 template <class Limits>
 class PoseSearch {
  public:
@@ -18,8 +18,11 @@ class PoseSearch {
   using RegistrationType = Registration<Limits>;
   using Model = EdgeMap<Limits::kMaxModelEdges>;
 
+  /// Where the registration of the frame begins.
   struct Start {
     PoseObjectFromCamera T_oc;
+    PoseObjectFromCamera T_expected;  ///< What the motion so far says, as far as it is believed.
+    float robust_scale_m = 0.0F;      ///< How far off it may be.
     int tried = 1;
   };
 
@@ -34,24 +37,31 @@ class PoseSearch {
     int search = 0;
   };
 
-  [[nodiscard]] static Start Find(const RegistrationType& registration, const Field& field,
-                                  const Model& edges, const RegistrationConfig& config,
-                                  const Prior& prior) noexcept {
-    if (prior.search == 0 && prior.velocity_known &&
-        registration.Score(field, config, prior.T_predicted) >= config.hypothesis_score) {
-      return {prior.T_predicted, 1};
+  /// Keeps references to its arguments.
+  PoseSearch(const RegistrationType& registration, const Field& field, const Model& edges,
+             const RegistrationConfig& config, const Prior& prior) noexcept
+      : registration_(registration), field_(field), edges_(edges), config_(config), prior_(prior) {}
+
+  /// @param conflict conflict(T_oc): share of the model's visible points that the depth image
+  /// contradicts, 0..1.
+  template <class Conflict>
+  [[nodiscard]] Start Find(const Conflict& conflict) const noexcept {
+    const PoseObjectFromCamera& T_predicted = prior_.T_predicted;
+    if (prior_.search == 0 && prior_.velocity_known &&
+        registration_.Score(field_, config_, T_predicted) >= config_.hypothesis_score) {
+      return {T_predicted, T_predicted, kBelievedShare * config_.robust_scale_start_m, 1};
     }
     Starts starts;
-    (void)starts.push_back(prior.T_predicted);
-    (void)starts.push_back(prior.T_previous);
-    (void)starts.push_back(Recentred(registration, field, prior.T_predicted));
-    (void)starts.push_back(Recentred(registration, field, prior.T_previous));
-    if (prior.search == 0) {
-      (void)starts.push_back(HalfWay(registration.center_c(), prior.T_previous, prior.T_predicted));
+    (void)starts.push_back(T_predicted);
+    (void)starts.push_back(prior_.T_previous);
+    (void)starts.push_back(Recentred(T_predicted));
+    (void)starts.push_back(Recentred(prior_.T_previous));
+    if (prior_.search == 0) {
+      (void)starts.push_back(HalfWay(registration_.center_c(), prior_.T_previous, T_predicted));
     } else {
-      AddTurned(registration, field, prior, starts);
+      AddTurned(starts);
     }
-    return Best(registration, field, edges, config, starts);
+    return Best(starts, conflict);
   }
 
   /// Samples that starts are compared on.
@@ -61,21 +71,23 @@ class PoseSearch {
 
  private:
   static constexpr float kEdgeShare = 0.3F;
+  static constexpr float kDeviationShare = 0.15F;
+  static constexpr float kBelievedShare = 0.5F;
+  static constexpr float kSearchedShare = 0.25F;
   using Starts = FixedVector<PoseObjectFromCamera, kMaxStarts>;
 
   /// While the object is lost its rotation may be off by more than a registration corrects: a part
   /// of a grid of rotations about the predicted one, a different part in every frame, so that a
   /// frame's time stays bounded. The grid reaches 30 degrees in every direction.
-  static void AddTurned(const RegistrationType& registration, const Field& field,
-                        const Prior& prior, Starts& starts) noexcept {
+  void AddTurned(Starts& starts) const noexcept {
     constexpr int kDirections = 14;  // the axes and the diagonals of a cube, both ways
     constexpr float kAngle_rad = 0.38F;
     for (int i = 0; !starts.full(); ++i) {
-      const int index = ((prior.search - 1) * (kMaxStarts - 4) + i) % kDirections;
+      const int index = ((prior_.search - 1) * (kMaxStarts - 4) + i) % kDirections;
       const Vec3 turn = kAngle_rad * CubeDirection(index);
-      const PoseObjectFromCamera turned(Mat3(ExpSo3(turn) * prior.T_predicted.rotation()),
-                                        prior.T_predicted.translation());
-      (void)starts.push_back(Recentred(registration, field, turned));
+      const PoseObjectFromCamera turned(Mat3(ExpSo3(turn) * prior_.T_predicted.rotation()),
+                                        prior_.T_predicted.translation());
+      (void)starts.push_back(Recentred(turned));
     }
   }
 
@@ -90,41 +102,65 @@ class PoseSearch {
         .normalized();
   }
 
-  [[nodiscard]] static Start Best(const RegistrationType& registration, const Field& field,
-                                  const Model& edges, const RegistrationConfig& config,
-                                  const Starts& starts) noexcept {
-    Start best{starts[0], starts.size()};
-    float best_score = -1.0F;
+  template <class Conflict>
+  [[nodiscard]] Start Best(const Starts& starts, const Conflict& conflict) const noexcept {
+    // A view that shows much new surface can drag a registration away from a good prediction, which
+    // is therefore a candidate as it is, too.
+    PoseObjectFromCamera T_best = prior_.T_predicted;
+    float best = Plausibility(T_best, conflict);
     for (const PoseObjectFromCamera& T_start : starts) {
       const auto aligned =
-          registration.Align(field, edges, config, T_start, T_start, config.hypothesis_iterations);
+          registration_.Align(field_, edges_, config_, T_start, T_start,
+                              config_.robust_scale_start_m, config_.hypothesis_iterations);
       if (!aligned.solved) continue;
-      const float score = registration.Score(field, config, aligned.T_oc) +
-                          kEdgeShare * registration.EdgeScore(edges, config, aligned.T_oc);
-      if (score > best_score) {
-        best_score = score;
-        best.T_oc = aligned.T_oc;
-      }
+      const float plausibility = Plausibility(aligned.T_oc, conflict);
+      if (plausibility <= best) continue;
+      best = plausibility;
+      T_best = aligned.T_oc;
     }
-    return best;
+    // Where the prediction was not believed it must not pull either.
+    constexpr float kBelieved = 0.3F;
+    return {T_best, Deviation(T_best) > kBelieved ? T_best : prior_.T_predicted,
+            kSearchedShare * config_.robust_scale_start_m, starts.size()};
+  }
+
+  /// What the model explains of the frame, what the frame does not contradict of the model, and how
+  /// little the motion has to change.
+  template <class Conflict>
+  [[nodiscard]] float Plausibility(const PoseObjectFromCamera& T_oc,
+                                   const Conflict& conflict) const noexcept {
+    const float deviation = Deviation(T_oc);
+    return registration_.Score(field_, config_, T_oc) * (1.0F - conflict(T_oc)) +
+           kEdgeShare * registration_.EdgeScore(edges_, config_, T_oc) -
+           kDeviationShare * deviation / (1.0F + deviation);
+  }
+
+  /// Squared distance from the predicted pose, in units of what an impulse between two frames can
+  /// do.
+  [[nodiscard]] float Deviation(const PoseObjectFromCamera& T_oc) const noexcept {
+    constexpr float kShift_m = 0.025F;
+    constexpr float kTurn_rad = 0.2F;
+    const Vec3& center_c = registration_.center_c();
+    const Vec3 shift = T_oc * center_c - prior_.T_predicted * center_c;
+    const Vec3 turn = LogSo3(Mat3(T_oc.rotation() * prior_.T_predicted.rotation().transpose()));
+    return shift.squaredNorm() / (kShift_m * kShift_m) +
+           turn.squaredNorm() / (kTurn_rad * kTurn_rad);
   }
 
   /// The same rotation, with the observed centroid put onto the centroid of the model's part that
   /// faces the camera.
-  [[nodiscard]] static PoseObjectFromCamera Recentred(const RegistrationType& registration,
-                                                      const Field& field,
-                                                      const PoseObjectFromCamera& T_oc) noexcept {
+  [[nodiscard]] PoseObjectFromCamera Recentred(const PoseObjectFromCamera& T_oc) const noexcept {
     Vec3 sum = Vec3::Zero();
     float count = 0.0F;
     const Vec3& eye_o = T_oc.translation();
-    field.store().ForEach([&](Handle, const auto& cluster) {
+    field_.store().ForEach([&](Handle, const auto& cluster) {
       if (cluster.mean_normal.dot(eye_o - cluster.centroid_m) <= 0.0F) return;
       const auto samples = static_cast<float>(cluster.samples.size());
       sum += samples * cluster.centroid_m;
       count += samples;
     });
     if (count < 1.0F) return T_oc;
-    const Vec3 shift = sum / count - T_oc * registration.center_c();
+    const Vec3 shift = sum / count - T_oc * registration_.center_c();
     return {T_oc.rotation(), Vec3(T_oc.translation() + shift)};
   }
 
@@ -136,6 +172,12 @@ class PoseSearch {
     const Vec3 center_o = 0.5F * (a * center_c + b * center_c);
     return {rotation, Vec3(center_o - rotation * center_c)};
   }
+
+  const RegistrationType& registration_;
+  const Field& field_;
+  const Model& edges_;
+  const RegistrationConfig& config_;
+  const Prior& prior_;
 };
 
 }  // namespace disflow

@@ -94,13 +94,13 @@ class Registration {
 
   /// Iterates closed-form steps from T_start.
   /// @param T_predicted Centre of the temporal regulariser.
+  /// @param scale_m Width of the robust kernel at the first step, halved at each.
   [[nodiscard]] Result Align(const Field& field, const Model& model_edges,
                              const RegistrationConfig& config, const PoseObjectFromCamera& T_start,
-                             const PoseObjectFromCamera& T_predicted,
+                             const PoseObjectFromCamera& T_predicted, float scale_m,
                              int iterations) const noexcept {
     Result result;
     result.T_oc = T_start;
-    float scale_m = config.robust_scale_start_m;
     Correspondences matched;
     for (int i = 0; i < iterations; ++i, scale_m *= 0.5F) {
       const NormalEquations equations =
@@ -139,9 +139,20 @@ class Registration {
   /// What the samples and edges were matched with in the last search.
   struct Correspondences {
     bool known = false;
-    std::array<Handle, static_cast<std::size_t>(Limits::kMaxRegistrationPoints)> clusters;
+    struct Surface {
+      Handle cluster;
+      float beyond_variance_m2;
+    };
+    std::array<Surface, static_cast<std::size_t>(Limits::kMaxRegistrationPoints)> surfaces;
     std::array<const typename Model::Edge*, static_cast<std::size_t>(Limits::kMaxEdgePoints)> edges;
   };
+
+  /// Variance that is added to all residuals while the kernel is wide: as long as the pose is off
+  /// by more than the noise, a few very precise samples must not outvote all others.
+  [[nodiscard]] static float Blur(float scale_m) noexcept {
+    constexpr float kShare = 0.1F;
+    return kShare * kShare * scale_m * scale_m;
+  }
 
   /// T <- exp(xi) T, with the rotation about a centre instead of the origin: better conditioned in
   /// float.
@@ -185,12 +196,12 @@ class Registration {
     const SurfaceSample& sample = samples_[index];
     const Vec3 x_o = result.T_oc * sample.position_m;
     const Vec3 n_o = result.T_oc.rotation() * sample.normal;
-    Handle& cluster = matched.clusters[static_cast<std::size_t>(index)];
+    auto& known = matched.surfaces[static_cast<std::size_t>(index)];
     auto match =
-        matched.known && cluster != kNoHandle
-            ? field.Reuse(cluster, x_o)
+        matched.known && known.cluster != kNoHandle
+            ? field.Reuse(known.cluster, known.beyond_variance_m2, x_o)
             : field.FindMatch(x_o, n_o, config.match_radius_m + scale_m, config.min_normal_cos);
-    cluster = match.cluster;
+    known = {match.cluster, match.beyond_variance_m2};
     if (!match.found) {
       if (match.normal_mismatch) {
         ++result.normal_mismatch;
@@ -219,7 +230,7 @@ class Registration {
     const float sigma_m = std::sqrt(variance_m2);
     const float robust =
         GemanMcClure(residual_m, std::fmax(scale_m, config.robust_scale_sigmas * sigma_m));
-    const float weight = robust * std::fmin(norm, 1.0F) / variance_m2;
+    const float weight = robust * std::fmin(norm, 1.0F) / (variance_m2 + Blur(scale_m));
     equations.Add(x_o - result.center_m, match.gradient / norm, residual_m, weight);
     equations.weighted_square_sum += robust * residual_m * residual_m;
     equations.weight_sum += robust;
@@ -273,7 +284,7 @@ class Registration {
     const float robust = GemanMcClure(
         edge.residual_m, std::fmax(scale_m, config.robust_scale_sigmas * edge.sigma_m));
     equations.Add(edge.position_m - result.center_m, edge.gradient, edge.residual_m,
-                  robust / (edge.sigma_m * edge.sigma_m));
+                  robust / (edge.sigma_m * edge.sigma_m + Blur(scale_m)));
     if (robust > 0.25F) ++equations.edge_inliers;
   }
 
