@@ -51,7 +51,8 @@ class DepthReader {
     // NaN fails all comparisons. Branch-free, so that compilers use vector instructions.
     for (int i = 0; i < count; ++i) {
       const float value = depth_m[i];
-      depth_m[i] = (value >= min_m_) & (value <= max_m_) & (value > 0.0F) ? value : 0.0F;
+      const int usable = int{value >= min_m_} & int{value <= max_m_} & int{value > 0.0F};
+      depth_m[i] = usable != 0 ? value : 0.0F;
     }
   }
 

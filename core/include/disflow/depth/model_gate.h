@@ -40,9 +40,9 @@ class ModelGate {
       const float x_m = z * (start.x() + u * step_.x()) + offset_m_.x();
       const float y_m = z * (start.y() + u * step_.y()) + offset_m_.y();
       const float z_m = z * (start.z() + u * step_.z()) + offset_m_.z();
-      const bool inside = (std::abs(x_m) <= half_m_.x()) & (std::abs(y_m) <= half_m_.y()) &
-                          (std::abs(z_m) <= half_m_.z());
-      depth_m[i] = inside ? z : 0.0F;
+      const int inside = int{std::abs(x_m) <= half_m_.x()} & int{std::abs(y_m) <= half_m_.y()} &
+                         int{std::abs(z_m) <= half_m_.z()};
+      depth_m[i] = inside != 0 ? z : 0.0F;
     }
   }
 
