@@ -18,7 +18,7 @@ namespace disflow {
 struct SurfaceVertex {
   Vec3 position_m = Vec3::Zero();  ///< Object frame.
   Vec3 normal = Vec3::Zero();      ///< Unit length, outward.
-  float std_m = 0.0F;              ///< Posterior standard deviation of the distance field here.
+  float std_m = 0.0F;              ///< How far off the surface may be along its normal; one sigma.
 };
 
 /// Receives triangles one by one; nothing is stored by the extractor.

@@ -188,9 +188,10 @@ class SurfaceExtractor {
         value.found && value.nearest_m <= support_m_ &&
         std::abs(value.distance_m) < kLargestJump * (step_m_ + field_.config().merge_radius_m);
     if (!supported) return {key, false, {}};
-    return {key,
-            true,
-            {x_m, value.gradient, std::sqrt(variance_.At(value.cluster, x_m, value.nearest_m))}};
+    return {
+        key,
+        true,
+        {x_m, value.gradient, std::sqrt(variance_.OfSurface(value.cluster, x_m, value.nearest_m))}};
   }
 
   [[nodiscard]] static Corner Shifted(const Corner& corner, unsigned bits) noexcept {
