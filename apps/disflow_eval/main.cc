@@ -41,7 +41,8 @@ constexpr const char* kFooter =
     "A folder holds gt/poses.txt, gt/velocities.txt, data.txt and gt/model.obj (Fast-YCB layout).\n"
     "The estimate is aligned with the truth once, at its first frame. Frames without a row count\n"
     "as failed in the AUC figures; the other figures are over the frames that have one.\n"
-    "ADD-S is the mean distance of the model's points from the nearest point of the surface of the\n"
+    "ADD-S is the mean distance of the model's points from the nearest point of the surface of "
+    "the\n"
     "estimated model, where the model is a mesh; of its points, where it is a cloud.\n"
     "\n"
     "Exit status: 0 done, 2 wrong usage, 3 an input failed, 4 an output failed.";

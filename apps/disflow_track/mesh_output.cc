@@ -11,8 +11,8 @@
 namespace disflow::apps {
 namespace {
 
-constexpr int kViewWidth_px = 480;
-constexpr int kViewHeight_px = 560;
+constexpr int kViewWidth_px = 310;
+constexpr int kViewHeight_px = 380;
 
 struct Picture {
   int width_px = 0;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "child_process.h"
 #include "scratch_folder.h"
@@ -46,6 +47,33 @@ TEST_F(SimulatedSequence, JudgedByItsAddress_HasTheFiguresOfItsFiles) {
   const auto lines = std::count(frames.begin(), frames.end(), '\n');
   EXPECT_GT(lines, 10);
   EXPECT_LT(lines, 21) << "dropped frames have no line";
+}
+
+TEST_F(SimulatedSequence, NoisySurface_KnowsHowFarOffItIs) {
+  constexpr const char* kAddress = "sim:bottle?motion=rotate360&noise=d415&seed=2&frames=120";
+  ASSERT_EQ(RunTrack({"--sensor", kAddress, "--csv", Path("run.csv"), "--mesh", Path("run.ply"),
+                      "--headless"},
+                     scratch())
+                .exit_status,
+            0);
+  const Outcome outcome = ChildProcess(DISFLOW_EVAL,
+                                       {kAddress, "--csv", Path("run.csv"), "--mesh",
+                                        Path("run.ply"), "--json", Path("run.json")},
+                                       scratch())
+                              .Wait();
+  ASSERT_EQ(outcome.exit_status, 0) << outcome.err;
+  const auto surface = nlohmann::json::parse(ReadFile(Path("run.json")))["surface"];
+  EXPECT_GT(surface["seen"]["f_1mm"].get<double>(), 0.9);
+  EXPECT_GT(surface["seen"]["f_2mm"].get<double>(), 0.97);
+  EXPECT_LT(surface["seen"]["chamfer_m"].get<double>(), 0.0005);
+  const auto calibration = surface["calibration"];
+  EXPECT_GT(calibration["error_over_std"].get<double>(), 0.5);
+  EXPECT_LT(calibration["error_over_std"].get<double>(), 2.0);
+  EXPECT_GT(calibration["share_within_2_std"].get<double>(), 0.8);
+  EXPECT_GT(calibration["share_within_3_std"].get<double>(), 0.9);
+  // Where it says so it is worse.
+  const auto& bins = calibration["bins"];
+  EXPECT_GT(bins.back()["error_m"].get<double>(), 1.5 * bins.front()["error_m"].get<double>());
 }
 
 }  // namespace
