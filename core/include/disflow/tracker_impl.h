@@ -271,7 +271,7 @@ template <class Limits>
 bool Tracker<Limits>::IsSameObjectFrame(const DepthFrame& frame,
                                         const PoseObjectFromCamera& T_oc) const noexcept {
   constexpr float kReach_rad = 0.7F;
-  constexpr float kFarthestTurn_rad = 1.1F;
+  constexpr float kFarthestTurn_rad = 1.6F;
   const auto gap_s =
       static_cast<float>(static_cast<double>(frame.stamp_ns - twist_filter_.stamp_ns()) * 1e-9);
   const Vec3 off = LogSo3(Mat3(T_oc.rotation() * T_oc_.rotation().transpose()));

@@ -61,12 +61,21 @@ class PoseSearch {
     } else {
       AddTurned(starts);
     }
-    return Best(starts, conflict);
+    Start best = Best(starts, conflict);
+    if (prior_.search == 0) return best;
+    // The centroid says more of the position once the rotation is right: a flat face slides.
+    Starts again;
+    (void)again.push_back(best.T_oc);
+    (void)again.push_back(Recentred(best.T_oc));
+    const int tried = best.tried + 1;
+    best = Best(again, conflict);
+    best.tried = tried;
+    return best;
   }
 
   /// Samples that starts are compared on.
   static constexpr int kPoints = Limits::kMaxRegistrationPoints * 2 / 5;
-  /// Starts that are tried in one frame at most.
+  /// Starts that are tried in one frame at most; one more while the object is searched for.
   static constexpr int kMaxStarts = 8;
 
  private:
@@ -74,6 +83,7 @@ class PoseSearch {
   static constexpr float kDeviationShare = 0.15F;
   static constexpr float kBelievedShare = 0.5F;
   static constexpr float kSearchedShare = 0.25F;
+  static constexpr float kFewestCosine = 0.3F;
   using Starts = FixedVector<PoseObjectFromCamera, kMaxStarts>;
 
   /// While the object is lost its rotation may be off by more than a registration corrects: a part
@@ -154,7 +164,9 @@ class PoseSearch {
     float count = 0.0F;
     const Vec3& eye_o = T_oc.translation();
     field_.store().ForEach([&](Handle, const auto& cluster) {
-      if (cluster.mean_normal.dot(eye_o - cluster.centroid_m) <= 0.0F) return;
+      const Vec3 to_eye = eye_o - cluster.centroid_m;
+      // What is seen at too flat an angle is not among the samples.
+      if (cluster.mean_normal.dot(to_eye) < kFewestCosine * to_eye.norm()) return;
       const auto samples = static_cast<float>(cluster.samples.size());
       sum += samples * cluster.centroid_m;
       count += samples;

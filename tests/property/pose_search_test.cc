@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "disflow/flow/pose_search.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "model_builder.h"
+
+namespace disflow::testing {
+namespace {
+
+using Search = PoseSearch<profiles::Edge>;
+using EdgeRegistration = Registration<profiles::Edge>;
+
+/// A box of which three sides are seen.
+class LostBox : public ::testing::Test {
+ protected:
+  LostBox()
+      : shape_(Box(Vec3(0.06F, 0.04F, 0.08F), 0.0015F)),
+        model_(MakeModel(shape_)),
+        T_oc_(PoseCameraFromObject(ExpSo3(Vec3(0.4F, 0.7F, -0.2F)), Vec3(0.05F, -0.02F, 0.6F))
+                  .Inverse()) {
+    edges_.Start();
+    const Observing observing;
+    std::mt19937 random(7);
+    const Vec3& eye_o = T_oc_.translation();
+    while (samples_.size() < Search::kPoints) {
+      const SurfacePoint point = shape_.random_point(random);
+      if (point.normal.dot(eye_o - point.position_m) < 0.3F * (eye_o - point.position_m).norm())
+        continue;
+      SurfaceSample sample = Observe(point, observing, random);
+      sample.position_m = T_oc_.Inverse() * sample.position_m;
+      sample.normal = T_oc_.rotation().transpose() * sample.normal;
+      (void)samples_.push_back(sample);
+    }
+    registration_->SetObservations(samples_, no_edges_);
+  }
+
+  /// The true pose, turned about the object's middle and moved, object axes.
+  [[nodiscard]] PoseObjectFromCamera Off(const Vec3& turn_rad, const Vec3& shift_m) const {
+    return {Mat3(ExpSo3(turn_rad) * T_oc_.rotation()),
+            Vec3(ExpSo3(turn_rad) * T_oc_.translation() + shift_m)};
+  }
+  [[nodiscard]] Search::Start Find(const PoseObjectFromCamera& T_predicted, int search) const {
+    return Search(*registration_, *model_, edges_, config_,
+                  {T_predicted, T_predicted, true, search})
+        .Find([](const PoseObjectFromCamera&) { return 0.0F; });
+  }
+  /// Whether what the search starts from leads to the true pose.
+  [[nodiscard]] bool Finds(const PoseObjectFromCamera& T_predicted, int search) const {
+    const Search::Start start = Find(T_predicted, search);
+    EXPECT_LE(start.tried, Search::kMaxStarts + 1);
+    const auto aligned =
+        registration_->Align(*model_, edges_, config_, start.T_oc, start.T_expected,
+                             start.robust_scale_m, config_.iterations);
+    const Mat3 turn = aligned.T_oc.rotation() * T_oc_.rotation().transpose();
+    return LogSo3(turn).norm() < 0.02F &&
+           (aligned.T_oc.Inverse().translation() - T_oc_.Inverse().translation()).norm() < 0.003F;
+  }
+
+  Shape shape_;
+  std::unique_ptr<EdgeField> model_;
+  PoseObjectFromCamera T_oc_;
+  FixedVector<SurfaceSample, Search::kPoints> samples_;
+  EdgeRegistration::Edges no_edges_;
+  EdgeRegistration::Model edges_;
+  RegistrationConfig config_;
+  std::unique_ptr<EdgeRegistration> registration_ = std::make_unique<EdgeRegistration>();
+};
+
+TEST_F(LostBox, GoodPrediction_IsTakenAsItIs) {
+  const Search::Start start = Find(T_oc_, 0);
+  EXPECT_EQ(start.tried, 1);
+}
+
+TEST_F(LostBox, WithinThirtyDegreesAndFiveCentimetres_IsFoundWithinTheGridsRound) {
+  constexpr float kTurn_rad = 30.0F * 3.14159265F / 180.0F;
+  constexpr float kShift_m = 0.05F;
+  constexpr int kRound = 4;  // frames until every direction was tried
+  std::mt19937 random(11);
+  std::normal_distribution<float> gaussian;
+  const auto direction = [&] {
+    return Vec3(gaussian(random), gaussian(random), gaussian(random)).normalized();
+  };
+  constexpr int kTries = 60;
+  int found = 0;
+  for (int i = 0; i < kTries; ++i) {
+    const PoseObjectFromCamera T_off =
+        Off(Vec3(kTurn_rad * direction()), Vec3(kShift_m * direction()));
+    bool found_now = false;
+    for (int search = 1; search <= kRound && !found_now; ++search) found_now = Finds(T_off, search);
+    found += found_now ? 1 : 0;
+  }
+  EXPECT_GE(found, kTries * 95 / 100);
+}
+
+TEST_F(LostBox, FollowingAlone_WouldNotReachAsFar) {
+  std::mt19937 random(11);
+  std::normal_distribution<float> gaussian;
+  constexpr int kTries = 60;
+  int found = 0;
+  for (int i = 0; i < kTries; ++i) {
+    const Vec3 axis = Vec3(gaussian(random), gaussian(random), gaussian(random)).normalized();
+    found += Finds(Off(Vec3(0.52F * axis), Vec3::Zero()), 0) ? 1 : 0;
+  }
+  EXPECT_LT(found, kTries * 9 / 10);
+}
+
+}  // namespace
+}  // namespace disflow::testing
