@@ -252,7 +252,7 @@ PoseCameraFromObject Tracker<Limits>::Predict(const DepthFrame& frame) const noe
   if (!monitor_.Doubts(frame.stamp_ns)) return twist_filter_.Extrapolate(frame.stamp_ns);
   const double gap_s = static_cast<double>(frame.stamp_ns - twist_filter_.stamp_ns()) * 1e-9;
   const double moved_s = kFade_s * (1.0 - std::exp(-gap_s / kFade_s));
-  const PoseCameraFromObject T_co =
+  PoseCameraFromObject T_co =
       twist_filter_.Extrapolate(twist_filter_.stamp_ns() + static_cast<StampNs>(moved_s * 1e9));
   const auto in_view = [&frame](const Vec3& x_c) {
     if (!(x_c.z() > 0.0F)) return false;

@@ -129,8 +129,10 @@ class PlaneRemoval {
   [[nodiscard]] bool FitTile(const PixelBox& box, int tile, Plane& plane) const noexcept {
     const float width = static_cast<float>(box.width()) / kTiles;
     const float height = static_cast<float>(box.height()) / kTiles;
-    const float u_min = static_cast<float>(box.u_min) + width * static_cast<float>(tile % kTiles);
-    const float v_min = static_cast<float>(box.v_min) + height * static_cast<float>(tile / kTiles);
+    const int row = tile / kTiles;
+    const float u_min =
+        static_cast<float>(box.u_min) + width * static_cast<float>(tile - row * kTiles);
+    const float v_min = static_cast<float>(box.v_min) + height * static_cast<float>(row);
     return Fit(
         [&](const Point& p) {
           return p.u >= u_min && p.u < u_min + width && p.v >= v_min && p.v < v_min + height;
