@@ -3,6 +3,7 @@
 
 #include "disflow/config.h"
 #include "disflow/depth/depth_frame.h"
+#include "disflow/depth/depth_reader.h"
 #include "disflow/depth/edge_sampler.h"
 #include "disflow/depth/seen_space.h"
 #include "disflow/depth/segmenter.h"
@@ -10,6 +11,7 @@
 #include "disflow/estimate.h"
 #include "disflow/field/distance_field.h"
 #include "disflow/field/edge_map.h"
+#include "disflow/flow/model_agreement.h"
 #include "disflow/flow/pose_search.h"
 #include "disflow/flow/registration.h"
 #include "disflow/flow/tracking_monitor.h"
@@ -74,6 +76,9 @@ class Tracker {
 
   void Begin(const DepthFrame& frame, Estimate& estimate) noexcept;
   [[nodiscard]] Status Check(const DepthFrame& frame) const noexcept;
+  [[nodiscard]] DepthReader UsableDepth(const DepthFrame& frame) const noexcept;
+  [[nodiscard]] ModelAgreement AgreementWith(const DepthFrame& frame,
+                                             const PoseObjectFromCamera& T_oc) const noexcept;
   [[nodiscard]] Status Observe(const DepthFrame& frame, Estimate& estimate,
                                StageStopwatch& stopwatch) noexcept;
   void StartObject(const DepthFrame& frame) noexcept;

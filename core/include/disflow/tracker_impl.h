@@ -2,7 +2,6 @@
 #pragma once
 
 #include "disflow/field/known_surface.h"
-#include "disflow/flow/model_agreement.h"
 #include "disflow/flow/weak_direction.h"
 #include "disflow/geometry/symmetric_solver.h"
 #include "disflow/tracker.h"
@@ -133,8 +132,7 @@ Status Tracker<Limits>::Observe(const DepthFrame& frame, Estimate& estimate,
   const ErodedMask interior(object_mask_, config_.sampler.border_px);
   stopwatch.Mark(Stage::kSegment);
 
-  const DepthReader depth(frame.depth, config_.segmenter.min_range_m,
-                          config_.segmenter.max_range_m);
+  const DepthReader depth = UsableDepth(frame);
   auto& sampler = scratch_.template Begin<SurfaceSampler<Limits>>();
   sampler.Sample(depth, frame.camera, interior, config_.sampler, samples_, estimate.rejected);
   EdgeSampler<Limits>::Sample(depth, frame.camera, object_mask_, sampler, config_.sampler, edges_);
@@ -143,6 +141,19 @@ Status Tracker<Limits>::Observe(const DepthFrame& frame, Estimate& estimate,
   stopwatch.Mark(Stage::kSample);
   if (samples_.empty()) return Status::kNoValidDepth;
   return samples_.size() < config_.monitor.min_samples ? Status::kTooFewSamples : Status::kOk;
+}
+
+/// The depth image as far as it is within range.
+template <class Limits>
+DepthReader Tracker<Limits>::UsableDepth(const DepthFrame& frame) const noexcept {
+  return {frame.depth, config_.segmenter.min_range_m, config_.segmenter.max_range_m};
+}
+
+/// What a frame's depth image says of the model at a pose.
+template <class Limits>
+ModelAgreement Tracker<Limits>::AgreementWith(const DepthFrame& frame,
+                                              const PoseObjectFromCamera& T_oc) const noexcept {
+  return Compare(field_, T_oc, frame.camera, UsableDepth(frame));
 }
 
 /// The object frame: axes parallel to the camera's, origin at the first cloud's centroid.
@@ -171,10 +182,8 @@ typename Tracker<Limits>::Aligned Tracker<Limits>::Register(const DepthFrame& fr
   const typename PoseSearch<Limits>::Prior prior{
       T_oc_, T_oc_previous_, frame_index_ >= kFramesUntilVelocity,
       monitor_.Doubts(frame.stamp_ns) ? monitor_.missed() + 1 : 0};
-  const DepthReader depth(frame.depth, config_.segmenter.min_range_m,
-                          config_.segmenter.max_range_m);
   const auto conflict = [&](const PoseObjectFromCamera& T_oc) {
-    return Compare(field_, T_oc, frame.camera, depth).conflict();
+    return AgreementWith(frame, T_oc).conflict();
   };
   const auto start =
       PoseSearch<Limits>(registration_, field_, model_edges_, config_.registration, prior)
@@ -206,9 +215,7 @@ Status Tracker<Limits>::Conclude(const DepthFrame& frame, Status observed, const
     covariance = PoseCovariance(aligned);
     reported =
         (1.0F + config_.registration.drift_inflation * (1.0F + aligned.generation)) * covariance;
-    const DepthReader depth(frame.depth, config_.segmenter.min_range_m,
-                            config_.segmenter.max_range_m);
-    const ModelAgreement agreement = Compare(field_, aligned.T_oc, frame.camera, depth);
+    const ModelAgreement agreement = AgreementWith(frame, aligned.T_oc);
     estimate.conflict = agreement.conflict();
     estimate.visible = agreement.visible();
     evidence = {true,

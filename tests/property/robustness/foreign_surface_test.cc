@@ -55,6 +55,15 @@ class ForeignSurface : public ::testing::Test {
     EXPECT_LE(sequence->LongestLie(), 3);
   }
 
+  void ExpectOnlyTheFastBox(host::MaskKind mask) {
+    host::SimulationOptions options = Box(50);
+    options.mask = mask;
+    options.motion = host::MotionKind::kFast;
+    Track(options);
+    ExpectGoodTrack();
+    EXPECT_LT(FalseShare(), 0.002);
+  }
+
   /// The bottle without a mask, and a hand that touches it in frame 30 and then moves along with it
   /// as if it were a part.
   [[nodiscard]] static host::SimulationOptions TouchedBottle() {
@@ -92,22 +101,10 @@ TEST_F(ForeignSurface, WithoutTheMemoryOfFreeSpace_TheHandWouldBecomePart) {
 
 // Grown and shrunk by 6 pixels in turn, each held for three frames.
 TEST_F(ForeignSurface, SloppyLateMask_LetsNothingElseIn) {
-  host::SimulationOptions options = Box(50);
-  options.mask = host::MaskKind::kSloppy;
-  options.motion = host::MotionKind::kFast;
-  Track(options);
-  ExpectGoodTrack();
-  EXPECT_LT(FalseShare(), 0.002);
+  ExpectOnlyTheFastBox(host::MaskKind::kSloppy);
 }
 
-TEST_F(ForeignSurface, NoMask_LetsNothingElseIn) {
-  host::SimulationOptions options = Box(50);
-  options.mask = host::MaskKind::kNone;
-  options.motion = host::MotionKind::kFast;
-  Track(options);
-  ExpectGoodTrack();
-  EXPECT_LT(FalseShare(), 0.002);
-}
+TEST_F(ForeignSurface, NoMask_LetsNothingElseIn) { ExpectOnlyTheFastBox(host::MaskKind::kNone); }
 
 /// The box on a table, without a mask.
 class FirstFrameOnTable : public ForeignSurface {

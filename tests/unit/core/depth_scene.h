@@ -25,13 +25,16 @@ class DepthScene {
   DepthScene& Rectangle(const PixelBox& box, float depth_m) {
     return Draw(box, [depth_m](int, int) { return depth_m; });
   }
-  /// 1/z = offset + slope_v * v where that is nearer than what is there: a table seen from above.
-  DepthScene& Table(float offset_per_m, float slope_v_per_m) {
+  /// A table seen from above, from 4 m at the top of the image to 0.9 m at its foot, where that is
+  /// nearer than what is there.
+  DepthScene& Table() {
+    constexpr float kOffset_per_m = 0.25F;
+    constexpr float kSlope_per_m = 0.007F;
     for (int v = 0; v < kHeight_px; ++v) {
-      const float inverse = offset_per_m + slope_v_per_m * static_cast<float>(v);
+      const float table_m = 1.0F / (kOffset_per_m + kSlope_per_m * static_cast<float>(v));
       for (int u = 0; u < kWidth_px; ++u) {
         float& depth_m = depth_m_[Index(u, v)];
-        if (inverse > 0.0F) depth_m = std::min(depth_m, 1.0F / inverse);
+        depth_m = std::min(depth_m, table_m);
       }
     }
     return *this;

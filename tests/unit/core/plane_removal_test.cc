@@ -16,9 +16,6 @@ using testing::Covers;
 using testing::DepthScene;
 
 constexpr PixelBox kObject{60, 40, 100, 80};
-// From 4 m at the top of the image to 0.9 m at its foot.
-constexpr float kTableOffset_per_m = 0.25F;
-constexpr float kTableSlope_per_m = 0.007F;
 
 class PlaneRemovalTest : public ::testing::Test {
  protected:
@@ -49,7 +46,7 @@ class PlaneRemovalTest : public ::testing::Test {
 
 TEST_F(PlaneRemovalTest, WallAndTable_GoAndTheObjectStays) {
   DepthScene scene(2.2F);
-  scene.Table(kTableOffset_per_m, kTableSlope_per_m).Rectangle(kObject, 0.8F);
+  scene.Table().Rectangle(kObject, 0.8F);
   Find(scene);
   EXPECT_GT(RemovedShare(scene, kObject, false), 0.99);
   EXPECT_EQ(RemovedShare(scene, kObject, true), 0.0);
@@ -57,7 +54,7 @@ TEST_F(PlaneRemovalTest, WallAndTable_GoAndTheObjectStays) {
 
 TEST_F(PlaneRemovalTest, SensorNoise_LeavesAlmostNothingOfThePlane) {
   DepthScene scene(2.2F);
-  scene.Table(kTableOffset_per_m, kTableSlope_per_m);
+  scene.Table();
   std::mt19937 random(4);
   std::normal_distribution<float> noise(0.0F, 0.003F);  // 1/m
   const DepthScene clean = scene;

@@ -17,8 +17,6 @@ using testing::DepthScene;
 constexpr PixelBox kObject{60, 30, 100, 70};
 constexpr float kObject_m = 0.8F;
 constexpr PixelBox kOther{20, 30, 40, 60};
-constexpr float kTableOffset_per_m = 0.25F;
-constexpr float kTableSlope_per_m = 0.007F;
 
 /// The object's front in the camera frame.
 Vec3 Corner(int u, int v) {
@@ -59,7 +57,7 @@ class FirstFrame : public ::testing::Test {
 
 DepthScene ObjectOverATable() {
   DepthScene scene(2.2F);
-  scene.Table(kTableOffset_per_m, kTableSlope_per_m).Rectangle(kObject, kObject_m);
+  scene.Table().Rectangle(kObject, kObject_m);
   return scene;
 }
 
@@ -71,7 +69,7 @@ TEST_F(FirstFrame, NearestThing_IsTheObjectWithoutItsTable) {
 
 TEST_F(FirstFrame, ObjectThatStandsOnTheTable_IsCutOff) {
   DepthScene scene(2.2F);
-  scene.Table(kTableOffset_per_m, kTableSlope_per_m);
+  scene.Table();
   const PixelBox standing{60, 40, 100, 90};
   // Its foot is where the table is; no jump of depth parts them.
   scene.Rectangle(standing, scene.At(80, 89));

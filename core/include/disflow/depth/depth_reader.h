@@ -25,8 +25,7 @@ class DepthReader {
     } else {
       std::memcpy(&depth_m, pixel, sizeof depth_m);
     }
-    // NaN fails both comparisons.
-    return depth_m >= min_m_ && depth_m <= max_m_ && depth_m > 0.0F ? depth_m : 0.0F;
+    return InRangeOrZero(depth_m);
   }
 
   /// As At(), but 0 outside of the image.
@@ -48,18 +47,19 @@ class DepthReader {
     } else {
       std::memcpy(depth_m, pixels, sizeof(float) * static_cast<std::size_t>(count));
     }
-    // NaN fails all comparisons. Branch-free, so that compilers use vector instructions.
-    for (int i = 0; i < count; ++i) {
-      const float value = depth_m[i];
-      const int usable = int{value >= min_m_} & int{value <= max_m_} & int{value > 0.0F};
-      depth_m[i] = usable != 0 ? value : 0.0F;
-    }
+    for (int i = 0; i < count; ++i) depth_m[i] = InRangeOrZero(depth_m[i]);
   }
 
   [[nodiscard]] int width_px() const noexcept { return view_.width_px; }
   [[nodiscard]] int height_px() const noexcept { return view_.height_px; }
 
  private:
+  /// NaN fails all comparisons. Branch-free, so that compilers use vector instructions on rows.
+  [[nodiscard]] float InRangeOrZero(float depth_m) const noexcept {
+    const int usable = int{depth_m >= min_m_} & int{depth_m <= max_m_} & int{depth_m > 0.0F};
+    return usable != 0 ? depth_m : 0.0F;
+  }
+
   DepthView view_;
   float min_m_;
   float max_m_;
