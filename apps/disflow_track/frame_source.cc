@@ -13,6 +13,7 @@ constexpr std::int64_t kSecond_ns = 1'000'000'000;
 /// Also how soon a stop signal is noticed.
 constexpr std::int64_t kTimeout_ns = kSecond_ns / 5;
 constexpr std::int64_t kSaidUnreadable = 5;
+constexpr std::uint32_t kSaidRestarts = 5;
 
 }  // namespace
 
@@ -38,6 +39,7 @@ FrameSource::Event FrameSource::Next(DepthFrame& frame) {
     case Status::kEndOfStream:
       return Event::kEnd;
     case Status::kTimeout:
+      SayRestart(fault);
       return Event::kIdle;
     case Status::kTruncated:
     case Status::kCorrupt:
@@ -81,12 +83,25 @@ void FrameSource::SayUnreadable(const hal::Fault& fault) noexcept {
   if (unreadable_ == kSaidUnreadable) console_.Say("further unreadable frames are only counted");
 }
 
+void FrameSource::SayRestart(const hal::Fault& fault) noexcept {
+  const std::uint32_t restarts = sensor_.counters().restarts;
+  if (restarts == restarts_) return;
+  restarts_ = restarts;
+  if (restarts_ <= kSaidRestarts) console_.Say(fault.message);
+  if (restarts_ == kSaidRestarts) console_.Say("further starts of the stream are only counted");
+}
+
 void FrameSource::TryReopen(const hal::Fault& fault) noexcept {
-  if (!lost_) console_.Say(std::string(fault.message) + "; waiting for it to come back");
+  if (!lost_) {
+    console_.Say(std::string(fault.message) + "; waiting for it to come back");
+    open_status_ = Status::kNotFound;
+  }
   lost_ = true;
   clock_.SleepUntilNs(clock_.NowNs() + kTimeout_ns);
-  // Not there yet: Next() says so again.
-  (void)sensor_.Open();
+  const hal::Fault opened = sensor_.Open();
+  // Not there yet is known; what else is wrong is said once.
+  if (!opened.ok() && opened.status != open_status_) console_.Say(opened.message);
+  open_status_ = opened.status;
 }
 
 }  // namespace disflow::apps

@@ -39,6 +39,7 @@ class FrameSource {
  private:
   void Pace(StampNs stamp_ns) noexcept;
   void SayUnreadable(const hal::Fault& fault) noexcept;
+  void SayRestart(const hal::Fault& fault) noexcept;
   void TryReopen(const hal::Fault& fault) noexcept;
 
   hal::DepthSensor& sensor_;
@@ -51,6 +52,8 @@ class FrameSource {
   std::int64_t unreadable_ = 0;
   Status fault_status_ = Status::kOk;
   bool lost_ = false;
+  Status open_status_ = Status::kOk;  ///< Of the last attempt to open a lost device.
+  std::uint32_t restarts_ = 0;        ///< Said so far.
   bool started_ = false;
   std::int64_t start_ns_ = 0;  ///< On the clock, when the first frame was taken.
   StampNs first_stamp_ns_ = 0;

@@ -5,6 +5,7 @@
 #include "exit_status.h"
 #include "options.h"
 #include "run.h"
+#include "sensor_choice.h"
 #include "settings.h"
 #include "stop_signal.h"
 
@@ -23,6 +24,7 @@ ExitStatus Main(int argc, char** argv) {
   bool exit_now = false;
   const Options options = ParseCommandLine(argc, argv, exit_now);
   if (exit_now) return kDone;
+  if (options.list_sensors) return Print(ListSensors());
   if (options.print_settings_table) return Print(FormatSettingsPage());
   if (options.print_config) return Print(FormatSettings(options.config));
   InstallStopSignals();

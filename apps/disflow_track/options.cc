@@ -6,9 +6,9 @@
 #include <map>
 
 #include "disflow/hal/mavlink/telemetry.h"
-#include "disflow/host/open_sensor.h"
 #include "disflow/surface_extractor.h"
 #include "exit_status.h"
+#include "sensor_choice.h"
 #include "settings.h"
 
 namespace disflow::apps {
@@ -43,6 +43,8 @@ struct SettingSources {
 void AddInput(CLI::App& app, Options& options, SettingSources& settings) {
   app.add_option("--sensor", options.sensor, "Where depth images come from, see below")
       ->type_name("URI");
+  app.add_flag("--list-sensors", options.list_sensors,
+               "Show all cameras with their formats, sizes and rates, and end");
   app.add_option("--rate", options.rate,
                  "max: as fast as possible; realtime: at the pace of the capture stamps [max; a "
                  "live sensor is always realtime]")
@@ -119,7 +121,7 @@ Options ParseCommandLine(int argc, char** argv, bool& exit_now) {
   Options options;
   SettingSources settings;
   CLI::App app(kDescription, "disflow_track");
-  app.footer("Sensors:\n" + host::SensorHelp() + kLinksAndStatus);
+  app.footer("Sensors:\n" + SensorHelp() + kLinksAndStatus);
   app.set_version_flag("--version", "disflow_track " DISFLOW_VERSION " (" DISFLOW_BUILD ")");
   AddInput(app, options, settings);
   AddOutput(app, options);
@@ -134,7 +136,8 @@ Options ParseCommandLine(int argc, char** argv, bool& exit_now) {
   }
   ReadSettings(settings, options.config);
   CheckResolution(options);
-  if (options.sensor.empty() && !options.print_config && !options.print_settings_table) {
+  if (options.sensor.empty() && !options.list_sensors && !options.print_config &&
+      !options.print_settings_table) {
     throw Failure(kWrongUsage, "--sensor is required; see disflow_track --help");
   }
   return options;

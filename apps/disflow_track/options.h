@@ -31,6 +31,7 @@ struct Options {
   bool headless = false;
   bool timing = true;  ///< false: time columns are written as 0.
 
+  bool list_sensors = false;
   bool print_config = false;
   bool print_settings_table = false;
 };

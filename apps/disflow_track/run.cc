@@ -5,12 +5,12 @@
 
 #include "console.h"
 #include "disflow/distance_flow.h"
-#include "disflow/host/open_sensor.h"
 #include "disflow/posix/monotonic_clock.h"
 #include "disflow/tracker.h"
 #include "frame_source.h"
 #include "outputs.h"
 #include "run_report.h"
+#include "sensor_choice.h"
 #include "stop_signal.h"
 #include "surface_mesh.h"
 
@@ -69,6 +69,9 @@ void Track(const Options& options, Tracker<Limits>& tracker, hal::DepthSensor& s
       (void)tracker.Process(frame, result.estimate, stage_clock);  // the estimate carries it
       result.total_ns = clock.NowNs() - begin_ns;
       result.totals = tracker.totals();
+      // A camera that was away may have been moved: listeners are told as of a new start.
+      result.estimate.reset_counter =
+          static_cast<std::uint8_t>(result.estimate.reset_counter + sensor.counters().reconnects);
       WriteFlow(tracker, result, outputs);
     } else {
       // The last pose stands; the row says that it is not of this frame.
@@ -103,13 +106,6 @@ ExitStatus JudgeInput(const FrameSource& source, const RunReport& report, bool l
     return kInputFailed;
   }
   return kDone;
-}
-
-void OpenSensor(const std::string& uri, host::Sensor& sensor) {
-  const hal::Fault fault = host::OpenSensor(uri, sensor);
-  if (fault.ok()) return;
-  const bool is_usage = fault.status == Status::kInvalidUri;
-  throw Failure(is_usage ? kWrongUsage : kInputFailed, fault.message);
 }
 
 template <class Limits>

@@ -8,6 +8,14 @@
 
 namespace disflow::hal {
 
+/// Which moment of a frame its stamp names. What moves in between is seen half an exposure later
+/// than a start of exposure, and a read-out earlier than an end of frame.
+enum class StampPoint : std::uint8_t {
+  kUnknown,
+  kStartOfExposure,
+  kEndOfFrame,  ///< When the last byte had arrived.
+};
+
 /// What a sensor is and delivers; texts are owned by the sensor.
 struct SensorInfo {
   const char* name = "";  ///< For people, e.g. "replay of box_fast, 300 frames".
@@ -15,15 +23,23 @@ struct SensorInfo {
   int height_px = 0;
   float rate_hz = 0.0F;
   bool live = false;  ///< true: frames come in real time and are lost if nobody takes them.
+  StampPoint stamp_point = StampPoint::kUnknown;  ///< May be known only after the first frame.
+  /// A frame's views stay valid until Next() has been called this many times more.
+  int held_frames = 1;
 };
 
-/// Frames that never reached the tracker, counted since Open().
+/// Frames that did and did not reach the tracker, counted since the sensor was constructed;
+/// saturating.
 struct SensorCounters {
-  std::uint32_t frames = 0;  ///< Delivered by Next().
-  std::uint32_t dropped =
-      0;  ///< Lost between sensor and Next() (sequence gaps, newest-frame policy).
-  std::uint32_t corrupt = 0;     ///< Short or flagged as erroneous, thrown away.
-  std::uint32_t reconnects = 0;  ///< Times the device went away and came back.
+  std::uint32_t frames = 0;        ///< Delivered by Next().
+  std::uint32_t dropped = 0;       ///< Lost between sensor and Next(): gaps + skipped.
+  std::uint32_t gaps = 0;          ///< Missing in the driver's sequence numbers.
+  std::uint32_t skipped = 0;       ///< Left out because a newer frame was there already.
+  std::uint32_t corrupt = 0;       ///< Thrown away: flagged + short_frames, or a damaged file.
+  std::uint32_t flagged = 0;       ///< Marked as erroneous by the driver.
+  std::uint32_t short_frames = 0;  ///< Fewer bytes than the image has.
+  std::uint32_t restarts = 0;      ///< Times the stream had stalled or failed and was started anew.
+  std::uint32_t reconnects = 0;    ///< Times the device went away and came back.
 };
 
 /// A source of depth frames. Public methods are fixed; implementations override the Do methods.
@@ -33,11 +49,12 @@ class DepthSensor {
   DepthSensor(const DepthSensor&) = delete;
   DepthSensor& operator=(const DepthSensor&) = delete;
 
-  /// Makes the sensor ready. Idempotent after success.
+  /// Makes the sensor ready. Idempotent after success. After kDeviceLost it may be called again
+  /// until the device is back.
   [[nodiscard]] Fault Open() noexcept { return DoOpen(); }
 
-  /// Waits for the next frame. The frame's views stay valid until the next call of Next() or
-  /// Close().
+  /// Waits for the next frame. The frame's views stay valid until SensorInfo::held_frames more
+  /// calls of Next(), or Close().
   /// @return kOk, kTimeout, kEndOfStream, kDeviceLost (call Open() again), kTruncated or kCorrupt
   /// (this frame is lost,
   ///         the next call goes on), kNotOpen.

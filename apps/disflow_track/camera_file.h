@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "disflow/posix/camera/camera_description.h"
+
+namespace disflow::apps {
+
+/// Reads a TOML file with width, height, fx, fy, cx, cy and, if wanted, depth_scale.
+/// @throws Failure kWrongUsage with file, line and key.
+[[nodiscard]] posix::CameraDescription ReadCameraFile(const std::string& path);
+
+}  // namespace disflow::apps

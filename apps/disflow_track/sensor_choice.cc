@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sensor_choice.h"
+
+#include "camera_file.h"
+#include "disflow/posix/camera/camera_address.h"
+#include "disflow/posix/camera/camera_list.h"
+#include "disflow/posix/camera/v4l2_sensor.h"
+#include "exit_status.h"
+
+namespace disflow::apps {
+namespace {
+
+using hal::Fault;
+using posix::CameraAddress;
+
+Fault OpenCamera(const std::string& uri, host::Sensor& sensor) {
+  CameraAddress address;
+  if (const Fault fault = posix::ParseCameraAddress(uri, address); !fault.ok()) return fault;
+  if (address.kind == CameraAddress::Kind::kLibcamera) {
+    return hal::MakeFault(Status::kUnsupported,
+                          "%s: this disflow_track was built without libcamera; install "
+                          "libcamera-dev and build again, or use v4l2:",
+                          uri.c_str());
+  }
+  posix::CameraDescription description;
+  if (address.intrinsics[0] != '\0') description = ReadCameraFile(address.intrinsics);
+  return sensor.Emplace<posix::V4l2Sensor>(address, description).Open();
+}
+
+}  // namespace
+
+void OpenSensor(const std::string& uri, host::Sensor& sensor) {
+  const Fault fault =
+      posix::IsCameraAddress(uri) ? OpenCamera(uri, sensor) : host::OpenSensor(uri, sensor);
+  if (fault.ok()) return;
+  const bool is_usage =
+      fault.status == Status::kInvalidUri || fault.status == Status::kInvalidIntrinsics;
+  throw Failure(is_usage ? kWrongUsage : kInputFailed, fault.message);
+}
+
+std::string SensorHelp() { return posix::kCameraAddressHelp + host::SensorHelp(); }
+
+std::string ListSensors() { return posix::DescribeV4l2Cameras(); }
+
+}  // namespace disflow::apps

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "camera/frame_stamp.h"
+
+#include <gtest/gtest.h>
+
+namespace disflow::posix {
+namespace {
+
+TEST(FrameStamp, DaysAndYearsOfUptime_KeepTheirMicroseconds) {
+  v4l2_buffer buffer{};
+  constexpr std::int64_t kYear_s = 365LL * 24 * 3600;
+  for (const std::int64_t seconds : {std::int64_t{0}, std::int64_t{4'294'967}, 100 * kYear_s}) {
+    buffer.timestamp.tv_sec = static_cast<time_t>(seconds);
+    buffer.timestamp.tv_usec = 999'999;
+    EXPECT_EQ(StampNsOf(buffer), seconds * 1'000'000'000 + 999'999'000);
+  }
+}
+
+TEST(FrameStamp, MonotonicClockAndMoment_AreReadFromTheFlags) {
+  v4l2_buffer buffer{};
+  EXPECT_FALSE(IsMonotonic(buffer));
+  buffer.flags = V4L2_BUF_FLAG_TIMESTAMP_COPY;
+  EXPECT_FALSE(IsMonotonic(buffer));
+  buffer.flags = V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC | V4L2_BUF_FLAG_ERROR;
+  EXPECT_TRUE(IsMonotonic(buffer));
+  EXPECT_EQ(StampPointOf(buffer), hal::StampPoint::kEndOfFrame);
+  buffer.flags |= V4L2_BUF_FLAG_TSTAMP_SRC_SOE;
+  EXPECT_EQ(StampPointOf(buffer), hal::StampPoint::kStartOfExposure);
+}
+
+TEST(SequenceCheck, Gaps_AreCountedAcrossTheWrap) {
+  SequenceCheck check;
+  EXPECT_EQ(check.Missing(0xFFFFFFFE), 0U);
+  EXPECT_EQ(check.Missing(0xFFFFFFFF), 0U);
+  EXPECT_EQ(check.Missing(0), 0U);
+  EXPECT_EQ(check.Missing(4), 3U);
+}
+
+TEST(SequenceCheck, CounterThatStartsAnewOrStandsStill_IsNoGap) {
+  SequenceCheck check;
+  EXPECT_EQ(check.Missing(1000), 0U);
+  EXPECT_EQ(check.Missing(0), 0U);
+  EXPECT_EQ(check.Missing(0), 0U);
+  check.Restart();
+  EXPECT_EQ(check.Missing(50), 0U);
+}
+
+}  // namespace
+}  // namespace disflow::posix
