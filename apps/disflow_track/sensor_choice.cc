@@ -30,11 +30,12 @@ Fault OpenCamera(const std::string& uri, host::Sensor& sensor) {
 }  // namespace
 
 void OpenSensor(const std::string& uri, host::Sensor& sensor) {
-  const Fault fault =
-      posix::IsCameraAddress(uri) ? OpenCamera(uri, sensor) : host::OpenSensor(uri, sensor);
+  const bool is_camera = posix::IsCameraAddress(uri);
+  const Fault fault = is_camera ? OpenCamera(uri, sensor) : host::OpenSensor(uri, sensor);
   if (fault.ok()) return;
-  const bool is_usage =
-      fault.status == Status::kInvalidUri || fault.status == Status::kInvalidIntrinsics;
+  // A camera's intrinsics stand in the command line or a file of the user's.
+  const bool is_usage = fault.status == Status::kInvalidUri ||
+                        (is_camera && fault.status == Status::kInvalidIntrinsics);
   throw Failure(is_usage ? kWrongUsage : kInputFailed, fault.message);
 }
 

@@ -36,8 +36,8 @@ constexpr std::array kLibcamera{
                      Conversion::kUnpack10},
 };
 
-std::uint16_t Byte(const std::byte* bytes, std::size_t i) noexcept {
-  return std::to_integer<std::uint16_t>(bytes[i]);
+unsigned Byte(const std::byte* bytes, std::size_t i) noexcept {
+  return std::to_integer<unsigned>(bytes[i]);
 }
 
 void SwapBytes(const std::byte* row, std::span<std::uint16_t> pixels) noexcept {
