@@ -28,23 +28,31 @@ namespace disflow::posix {
          std::int64_t{buffer.timestamp.tv_usec} * kNsPerUs;
 }
 
-/// Counts frames that are missing in a driver's sequence numbers, which may wrap.
+/// Follows a driver's sequence numbers, which may wrap.
 class SequenceCheck {
  public:
-  /// @return Frames missing between the last one and this one; 0 for the first and for a driver
-  /// that starts counting anew.
-  [[nodiscard]] std::uint32_t Missing(std::uint32_t sequence) noexcept {
-    const std::uint32_t missing = sequence - last_ - 1;
-    const bool plausible = started_ && missing < kMostMissing;
+  struct Verdict {
+    std::uint32_t missing = 0;  ///< Frames between the last one and this one.
+    /// Comes after a newer one (uvcvideo completes buffers in parallel); it was counted as missing.
+    bool late = false;
+  };
+
+  [[nodiscard]] Verdict Judge(std::uint32_t sequence) noexcept {
+    const std::uint32_t ahead = sequence - last_;
+    const std::uint32_t behind = last_ - sequence;
+    if (started_ && behind != 0 && behind <= kMostBehind) return {0, true};
+    const bool is_gap = started_ && ahead != 0 && ahead <= kMostMissing;
     last_ = sequence;
     started_ = true;
-    return plausible ? missing : 0;
+    return {is_gap ? ahead - 1 : 0, false};
   }
   void Restart() noexcept { started_ = false; }
 
  private:
   // More is no gap but a counter that jumped.
   static constexpr std::uint32_t kMostMissing = 1U << 20U;
+  // No more can be under way than there are buffers.
+  static constexpr std::uint32_t kMostBehind = 8;
 
   bool started_ = false;
   std::uint32_t last_ = 0;

@@ -137,9 +137,15 @@ Fault V4l2Stream::TakeNewest(v4l2_buffer& newest) noexcept {
 Fault V4l2Stream::Inspect(const v4l2_buffer& buffer) noexcept {
   alive_ns_ = kernel_.NowNs();
   silent_restarts_ = 0;
-  const std::uint32_t missing = sequence_.Missing(buffer.sequence);
-  AddSaturating(counters_.gaps, missing);
-  AddSaturating(counters_.dropped, missing);
+  const SequenceCheck::Verdict order = sequence_.Judge(buffer.sequence);
+  AddSaturating(counters_.gaps, order.missing);
+  AddSaturating(counters_.dropped, order.missing);
+  if (order.late && counters_.gaps > 0) {
+    // Not missing after all, but too old to be of use.
+    --counters_.gaps;
+    AddSaturating(counters_.skipped);
+    return MakeFault(Status::kWouldBlock, "%s: frame %u came late", name_.c_str(), buffer.sequence);
+  }
   if ((buffer.flags & V4L2_BUF_FLAG_ERROR) != 0) {
     AddSaturating(counters_.corrupt);
     AddSaturating(counters_.flagged);

@@ -30,19 +30,29 @@ TEST(FrameStamp, MonotonicClockAndMoment_AreReadFromTheFlags) {
 
 TEST(SequenceCheck, Gaps_AreCountedAcrossTheWrap) {
   SequenceCheck check;
-  EXPECT_EQ(check.Missing(0xFFFFFFFE), 0U);
-  EXPECT_EQ(check.Missing(0xFFFFFFFF), 0U);
-  EXPECT_EQ(check.Missing(0), 0U);
-  EXPECT_EQ(check.Missing(4), 3U);
+  EXPECT_EQ(check.Judge(0xFFFFFFFE).missing, 0U);
+  EXPECT_EQ(check.Judge(0xFFFFFFFF).missing, 0U);
+  EXPECT_EQ(check.Judge(0).missing, 0U);
+  EXPECT_EQ(check.Judge(4).missing, 3U);
+}
+
+TEST(SequenceCheck, FrameThatIsOvertaken_IsLateAndNoSecondGap) {
+  SequenceCheck check;
+  EXPECT_EQ(check.Judge(10).missing, 0U);
+  EXPECT_EQ(check.Judge(12).missing, 1U);
+  EXPECT_TRUE(check.Judge(11).late);
+  const SequenceCheck::Verdict next = check.Judge(13);
+  EXPECT_EQ(next.missing, 0U);
+  EXPECT_FALSE(next.late);
 }
 
 TEST(SequenceCheck, CounterThatStartsAnewOrStandsStill_IsNoGap) {
   SequenceCheck check;
-  EXPECT_EQ(check.Missing(1000), 0U);
-  EXPECT_EQ(check.Missing(0), 0U);
-  EXPECT_EQ(check.Missing(0), 0U);
+  for (const std::uint32_t sequence : {1000U, 0U, 0U}) {
+    EXPECT_EQ(check.Judge(sequence).missing, 0U);
+  }
   check.Restart();
-  EXPECT_EQ(check.Missing(50), 0U);
+  EXPECT_EQ(check.Judge(50).missing, 0U);
 }
 
 }  // namespace

@@ -94,6 +94,23 @@ TEST_F(V4l2SensorTest, FramesTheDriverLost_AreCountedAsGaps) {
   EXPECT_EQ(sensor.counters().frames, 2U);
 }
 
+TEST_F(V4l2SensorTest, FrameThatComesAfterANewerOne_IsLeftOutAndCountedOnce) {
+  V4l2Sensor& sensor = Make();
+  ASSERT_TRUE(sensor.Open().ok());
+  for (const std::uint32_t sequence : {10U, 12U}) {
+    camera_.next_sequence = sequence;
+    camera_.Shoot(static_cast<std::uint16_t>(sequence));
+    ASSERT_EQ(Next(), Status::kOk);
+  }
+  camera_.next_sequence = 11;
+  camera_.Shoot(11);
+  EXPECT_EQ(Next(), Status::kTimeout);
+  EXPECT_EQ(sensor.counters().gaps, 0U);
+  EXPECT_EQ(sensor.counters().skipped, 1U);
+  EXPECT_EQ(sensor.counters().dropped, 1U);
+  EXPECT_EQ(camera_.queued(), 5U);
+}
+
 TEST_F(V4l2SensorTest, DamagedAndShortFrames_AreReportedCountedAndGivenBack) {
   V4l2Sensor& sensor = Make();
   ASSERT_TRUE(sensor.Open().ok());

@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""An emulated machine: a stock kernel, some programs, a script, and the files that it leaves."""
+import io
+import os
+import shutil
+import subprocess
+import tarfile
+
+from kernel import Unavailable
+from newc import Archive
+
+_INIT = """#!/bin/busybox sh
+/bin/busybox --install -s /bin
+export PATH=/bin
+mount -t proc proc /proc
+mount -t sysfs sysfs /sys
+mount -t devtmpfs devtmpfs /dev
+mkdir -p /run /out /tmp
+ip link set lo up
+while read -r module; do insmod "/modules/$module" || echo "no $module"; done </modules/order
+cd /
+sh /script >/out/log 2>&1
+dmesg >/out/dmesg
+tar -C /out -c . | cat >"$(ls -d /dev/vport*p1)"
+poweroff -f
+"""
+
+
+class Machine:
+    """How QEMU shows a computer of one architecture."""
+
+    def __init__(self, arch):
+        common = ["-nodefaults", "-no-reboot", "-display", "none", "-m", "1024", "-nic", "none"]
+        if arch == "amd64":
+            self.program = "qemu-system-x86_64"
+            self.arguments = common + ["-M", "pc", "-smp", "2", "-accel", "tcg,thread=multi",
+                                       "-device", "virtio-serial-pci"]
+            self.console = "ttyS0"
+            self.modules = ["virtio_pci", "virtio_console"]
+        else:
+            self.program = "qemu-system-aarch64"
+            self.arguments = common + ["-M", "virt", "-cpu", "cortex-a53", "-smp", "2",
+                                       "-accel", "tcg,thread=multi", "-device", "virtio-serial-pci"]
+            self.console = "ttyAMA0"
+            self.modules = ["virtio_pci", "virtio_console"]
+
+
+class Guest:
+    """Filled by a test, booted once."""
+
+    def __init__(self, kernel, folder):
+        self._kernel = kernel
+        self._machine = Machine(kernel.arch)
+        self._folder = folder
+        self._archive = Archive()
+        self._modules = list(self._machine.modules)
+        shutil.rmtree(folder, ignore_errors=True)
+        os.makedirs(folder)
+        self._archive.add_file("bin/busybox", kernel.busybox)
+        self._archive.add_bytes("init", _INIT.encode(), 0o755)
+        for name in ["proc", "sys", "dev"]:
+            self._archive.add_folder(name)
+
+    def add_modules(self, names):
+        self._modules += names
+
+    def add_file(self, name, path):
+        self._archive.add_file(name, path)
+
+    def add_text(self, name, text):
+        self._archive.add_bytes(name, text.encode())
+
+    def add_program(self, path):
+        """The program as /bin/NAME, with the libraries that it needs."""
+        self._archive.add_file("bin/" + os.path.basename(path), path)
+        for library in libraries(self._kernel.arch, path):
+            self._archive.add_file(library.lstrip("/"), os.path.realpath(library))
+
+    def boot(self, script, timeout_s, extra=()):
+        """Runs the script and returns {name: bytes} of what it left in /out."""
+        self._archive.add_bytes("script", script.encode())
+        files = self._kernel.modules(self._modules)
+        self._archive.add_bytes("modules/order",
+                                "".join(os.path.basename(file) + "\n" for file in files).encode())
+        for file in files:
+            self._archive.add_file("modules/" + os.path.basename(file), file)
+        initrd = os.path.join(self._folder, "initrd")
+        self._archive.write(initrd)
+        output = os.path.join(self._folder, "out.tar")
+        console = os.path.join(self._folder, "console.txt")
+        command = [self._machine.program, *self._machine.arguments,
+                   "-kernel", self._kernel.image, "-initrd", initrd,
+                   "-append", "console=" + self._machine.console + " panic=-1 quiet",
+                   "-chardev", "file,id=out,path=" + output,
+                   "-device", "virtserialport,chardev=out,name=out",
+                   *(extra or ["-serial", "file:" + console])]
+        try:
+            result = subprocess.run(command, timeout=timeout_s, capture_output=True, text=True,
+                                    check=False)
+        except FileNotFoundError as error:
+            raise Unavailable(self._machine.program + " is not installed") from error
+        if result.returncode != 0:
+            raise RuntimeError("QEMU: " + result.stderr)
+        return self._read(output)
+
+    @staticmethod
+    def _read(path):
+        with open(path, "rb") as file:
+            data = file.read()
+        with tarfile.open(fileobj=io.BytesIO(data)) as tar:
+            return {os.path.normpath(member.name): tar.extractfile(member).read()
+                    for member in tar if member.isfile()}
+
+
+def libraries(arch, program):
+    """Paths of the shared libraries and of the loader."""
+    command = ["ldd", program]
+    if arch == "arm64":
+        command = ["qemu-aarch64", "/lib/ld-linux-aarch64.so.1", "--list", program]
+    listing = subprocess.run(command, capture_output=True, text=True, check=False)
+    if listing.returncode != 0:
+        return []  # static
+    paths = []
+    for line in listing.stdout.splitlines():
+        for word in line.split():
+            if word.startswith("/"):
+                paths.append(word)
+    return paths

@@ -1,0 +1,6 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Where things are, set by run.py, and what was measured."""
+programs = ""
+arm_programs = ""
+folder = ""
+figures = []
