@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "disflow/estimate.h"
+#include "disflow/hal/depth_sensor.h"
 
 namespace disflow::apps {
 
@@ -12,8 +13,8 @@ struct FrameResult {
   std::int64_t frame = 0;  ///< Position in the input, from 0.
   Estimate estimate;
   Counters totals;
-  std::int64_t total_ns = 0;         ///< Whole time in the tracker, without reading the frame.
-  std::uint32_t dropped_frames = 0;  ///< Lost before they reached the tracker, so far.
+  std::int64_t total_ns = 0;   ///< Whole time in the tracker, without reading the frame.
+  hal::SensorCounters sensor;  ///< So far.
 };
 
 }  // namespace disflow::apps

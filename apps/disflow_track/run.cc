@@ -79,7 +79,7 @@ void Track(const Options& options, Tracker<Limits>& tracker, hal::DepthSensor& s
       result.estimate.stage_ns.fill(0);
       result.total_ns = 0;
     }
-    result.dropped_frames = sensor.counters().dropped;
+    result.sensor = sensor.counters();
     const std::int64_t now_ns = clock.NowNs();
     outputs.Deliver(result, readable ? &frame : nullptr, source.AgeNs(frame.stamp_ns), now_ns);
     report.Add(result);

@@ -36,6 +36,18 @@ std::string Print(const char* format, Values... values) {
   return text.data();
 }
 
+/// What the sensor had to struggle with; empty if nothing.
+std::string FormatSensor(const hal::SensorCounters& sensor) {
+  std::string text;
+  if (sensor.dropped > 0) {
+    text += Print(" (%u in the driver, %u for a newer one)", sensor.gaps, sensor.skipped);
+  }
+  if (sensor.corrupt > 0) text += Print(", %u corrupt", sensor.corrupt);
+  if (sensor.restarts > 0) text += Print(", stream started anew %u times", sensor.restarts);
+  if (sensor.reconnects > 0) text += Print(", sensor came back %u times", sensor.reconnects);
+  return text;
+}
+
 }  // namespace
 
 void RunReport::Add(const FrameResult& result) noexcept {
@@ -45,7 +57,7 @@ void RunReport::Add(const FrameResult& result) noexcept {
   if (estimate.status == Status::kOk) ++registered_;
   total_.Add(result.total_ns);
   totals_ = result.totals;
-  dropped_frames_ = result.dropped_frames;
+  sensor_ = result.sensor;
   state_ = estimate.state;
   quality_ = estimate.quality;
   restarts_ = estimate.reset_counter;
@@ -69,7 +81,8 @@ std::string RunReport::Format(double seconds) const {
     }
   }
   text += Print("\n  at the end: %s, quality %d, %d restarts, %u frames dropped", Name(state_),
-                quality_, restarts_, dropped_frames_);
+                quality_, restarts_, sensor_.dropped);
+  text += FormatSensor(sensor_);
   text += Print("\n  time per frame: median %.2f ms, 99 %% below %.2f ms",
                 total_.Percentile_ms(0.5), total_.Percentile_ms(0.99));
   text += "\n  rejected:";

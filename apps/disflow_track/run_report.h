@@ -30,7 +30,7 @@ class RunReport {
   std::array<std::int64_t, 256> by_status_{};
   DurationHistogram total_;
   Counters totals_;
-  std::uint32_t dropped_frames_ = 0;
+  hal::SensorCounters sensor_;
   TrackingState state_ = TrackingState::kInitialising;
   std::uint8_t quality_ = 0;
   std::uint8_t restarts_ = 0;

@@ -50,7 +50,7 @@ void TelemetryOutput::Send(const FrameResult& result, std::int64_t age_ns,
   }
   Broadcast(encoder_.EncodeOdometry(estimate, buffer_));
   const hal::mavlink::SendContext context{
-      .age_ns = age_ns, .dropped_frames = result.dropped_frames, .totals = result.totals};
+      .age_ns = age_ns, .sensor = result.sensor, .totals = result.totals};
   Broadcast(encoder_.EncodeStatus(estimate, context, buffer_));
 }
 

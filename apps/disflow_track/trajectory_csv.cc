@@ -144,7 +144,7 @@ bool TrajectoryCsv::Write(const FrameResult& result) noexcept {
   row.AddUpperTriangle(estimate.pose_covariance);
   row.AddUpperTriangle(estimate.twist_covariance);
   AddObservability(estimate, row);
-  row.Add(std::int64_t{result.dropped_frames});
+  row.Add(std::int64_t{result.sensor.dropped});
   return file_.Append(row.FinishLine());
 }
 

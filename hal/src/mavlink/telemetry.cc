@@ -157,7 +157,7 @@ DisflowStatus MakeStatus(const Estimate& estimate, const SendContext& context) n
   status.rms_m = estimate.rms_m;
   status.age_us = AgeOf(context.age_ns);
   status.frames = totals.frames;
-  status.dropped_frames = context.dropped_frames;
+  status.dropped_frames = context.sensor.dropped;
   status.frames_rejected = totals.frames_rejected;
   status.frames_unregistered = totals.frames_unregistered;
   status.observations_rejected = totals.observations_rejected;
@@ -174,6 +174,9 @@ DisflowStatus MakeStatus(const Estimate& estimate, const SendContext& context) n
   status.status = static_cast<std::uint8_t>(estimate.status);
   status.quality = estimate.quality;
   status.reset_counter = estimate.reset_counter;
+  status.corrupt_frames = context.sensor.corrupt;
+  status.sensor_restarts = Saturated16(context.sensor.restarts);
+  status.sensor_reconnects = Saturated16(context.sensor.reconnects);
   return status;
 }
 

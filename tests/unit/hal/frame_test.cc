@@ -31,7 +31,7 @@ TEST(Frame, DefaultHeartbeat_HasTheBytesOfTheSpecification) {
 
 TEST(Frame, FullOdometry_Takes245Bytes) {
   EXPECT_EQ(Encoded(Filled<Odometry>()).size(), 245U);
-  EXPECT_EQ(Encoded(Filled<DisflowStatus>()).size(), 80U);
+  EXPECT_EQ(Encoded(Filled<DisflowStatus>()).size(), 88U);
 }
 
 TEST(Frame, TrailingZeros_AreDropped) {

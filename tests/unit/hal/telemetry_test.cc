@@ -110,7 +110,10 @@ TEST(Telemetry, Status_CarriesStateCountersAndTotals) {
   estimate.rejected.residuals_normal_mismatch = 13;
   SendContext context;
   context.age_ns = 4'321'999;
-  context.dropped_frames = 2;
+  context.sensor.dropped = 2;
+  context.sensor.corrupt = 9;
+  context.sensor.restarts = 70000;
+  context.sensor.reconnects = 11;
   context.totals.frames = 100;
   context.totals.frames_rejected = 5;
   context.totals.frames_unregistered = 6;
@@ -133,6 +136,9 @@ TEST(Telemetry, Status_CarriesStateCountersAndTotals) {
   EXPECT_EQ(status.residuals_normal_mismatch, 13);
   EXPECT_EQ(status.age_us, 4321U);
   EXPECT_EQ(status.dropped_frames, 2U);
+  EXPECT_EQ(status.corrupt_frames, 9U);
+  EXPECT_EQ(status.sensor_restarts, 65535);
+  EXPECT_EQ(status.sensor_reconnects, 11);
   EXPECT_EQ(status.frames, 100U);
   EXPECT_EQ(status.frames_rejected, 5U);
   EXPECT_EQ(status.frames_unregistered, 6U);

@@ -146,17 +146,17 @@ Fault V4l2Stream::Inspect(const v4l2_buffer& buffer) noexcept {
     AddSaturating(counters_.skipped);
     return MakeFault(Status::kWouldBlock, "%s: frame %u came late", name_.c_str(), buffer.sequence);
   }
-  if ((buffer.flags & V4L2_BUF_FLAG_ERROR) != 0) {
-    AddSaturating(counters_.corrupt);
-    AddSaturating(counters_.flagged);
-    return MakeFault(Status::kCorrupt, "%s: the driver marked frame %u as damaged", name_.c_str(),
-                     buffer.sequence);
-  }
   if (buffer.bytesused < layout_.image_bytes) {
     AddSaturating(counters_.corrupt);
     AddSaturating(counters_.short_frames);
     return MakeFault(Status::kTruncated, "%s: frame %u has %u of %zu bytes", name_.c_str(),
                      buffer.sequence, buffer.bytesused, layout_.image_bytes);
+  }
+  if ((buffer.flags & V4L2_BUF_FLAG_ERROR) != 0) {
+    AddSaturating(counters_.corrupt);
+    AddSaturating(counters_.flagged);
+    return MakeFault(Status::kCorrupt, "%s: the driver marked frame %u as damaged", name_.c_str(),
+                     buffer.sequence);
   }
   if (!IsMonotonic(buffer)) {
     return MakeFault(Status::kUnsupported,

@@ -94,6 +94,6 @@ template <class Message>
 // stand in docs/wire-format.md and must never change.
 static_assert(PayloadSize<Heartbeat>() == 9 && CrcExtra<Heartbeat>() == 50);
 static_assert(PayloadSize<Odometry>() == 233 && CrcExtra<Odometry>() == 91);
-static_assert(PayloadSize<DisflowStatus>() == 68 && CrcExtra<DisflowStatus>() == 237);
+static_assert(PayloadSize<DisflowStatus>() == 76 && CrcExtra<DisflowStatus>() == 237);
 
 }  // namespace disflow::hal::mavlink

@@ -138,6 +138,10 @@ struct DisflowStatus {
   std::uint8_t status = 0;  ///< disflow::Status.
   std::uint8_t quality = 0;
   std::uint8_t reset_counter = 0;
+  // Totals of the sensor, extension fields.
+  std::uint32_t corrupt_frames = 0;
+  std::uint16_t sensor_restarts = 0;
+  std::uint16_t sensor_reconnects = 0;
 
   template <class Self, class Visitor>
   static constexpr void VisitFields(Self& message, Visitor& field) {
@@ -163,6 +167,9 @@ struct DisflowStatus {
     field("status", message.status);
     field("quality", message.quality);
     field("reset_counter", message.reset_counter);
+    field("corrupt_frames", message.corrupt_frames, FieldKind::kExtension);
+    field("sensor_restarts", message.sensor_restarts, FieldKind::kExtension);
+    field("sensor_reconnects", message.sensor_reconnects, FieldKind::kExtension);
   }
 };
 

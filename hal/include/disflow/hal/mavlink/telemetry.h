@@ -6,6 +6,7 @@
 #include <span>
 
 #include "disflow/estimate.h"
+#include "disflow/hal/depth_sensor.h"
 #include "disflow/hal/fault.h"
 #include "disflow/hal/mavlink/frame.h"
 
@@ -34,9 +35,9 @@ inline constexpr std::uint8_t kMaxObjectIndex = 42;  ///< MAV_COMP_ID_USER43, th
 
 /// What DISFLOW_STATUS says beyond the Estimate.
 struct SendContext {
-  std::int64_t age_ns = -1;          ///< Now minus capture stamp; negative = unknown.
-  std::uint32_t dropped_frames = 0;  ///< SensorCounters::dropped.
-  Counters totals;                   ///< Tracker::totals().
+  std::int64_t age_ns = -1;  ///< Now minus capture stamp; negative = unknown.
+  SensorCounters sensor;
+  Counters totals;  ///< Tracker::totals().
 };
 
 /// @param pose_frame See TelemetryOptions.
