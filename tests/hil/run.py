@@ -12,7 +12,7 @@ import unittest
 
 import setting
 
-_SUITES = ["x86_camera"]
+_SUITES = ["x86_camera", "faults"]
 
 
 class _Result(unittest.TextTestResult):

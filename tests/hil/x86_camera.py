@@ -1,14 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """An emulated USB depth camera on a stock x86 kernel: every frame, every bit, the same trajectory."""
-import csv
-import io
 import os
-import subprocess
 import unittest
 
 import setting
 from guest import Guest
-from kernel import Kernel, Unavailable
+from live import SCRIPT, check_trajectory, make_kernel, rows_of
 from sequences import Sequence
 
 FRAMES = 90
@@ -17,42 +14,6 @@ RATE_HZ = 30
 SLOW_HZ = 3
 SLOW_FRAMES = 30
 _SENSOR = "v4l2:/dev/video0?format=Z16&depth_scale=0.001"
-
-SCRIPT = """
-camera() { rm -f /run/played; hil_usb_camera /frames --played /run/played "$@" & camera=$!; }
-plugged() { for i in $(seq 100); do [ -e /dev/video0 ] && return; usleep 50000; done; }
-played() { for i in $(seq 600); do [ -e /run/played ] && break; usleep 50000; done; usleep 500000; }
-track() {
-  name=$1; shift; plugged
-  disflow_track --sensor "$@" --csv /out/$name.csv --headless --no-timing 2>/out/$name &
-  track=$!; played; kill -INT $track; wait $track; echo "$name status $?"
-}
-unplug() { kill $camera; wait $camera; for i in $(seq 100); do [ -e /dev/video0 ] || return; usleep 50000; done; }
-"""
-
-
-def rows_of(text):
-    return list(csv.DictReader(io.StringIO(text.decode())))
-
-
-def replay(sequence, name, rows, options=()):
-    """Rows of a replay on this machine of what the guest saw: [(row, index of its frame)]."""
-    folder = sequence.with_stamps(os.path.join(setting.folder, name),
-                                  [(index, row["timestamp"]) for row, index in rows])
-    output = os.path.join(folder, "replay.csv")
-    subprocess.run([os.path.join(setting.programs, "disflow_track"), "--sensor", "replay:" + folder,
-                    "--csv", output, "--headless", "--no-timing", *options], check=True,
-                   capture_output=True)
-    with open(output, "rb") as file:
-        return rows_of(file.read())
-
-
-def make_kernel(arch):
-    try:
-        return Kernel(arch, os.path.join(setting.folder, "kernels"))
-    except Unavailable as error:
-        raise unittest.SkipTest(str(error)) from error
-
 
 class CameraOnX86(unittest.TestCase):
     @classmethod
@@ -82,6 +43,10 @@ unplug
     def text(self, name):
         return self.out[name].decode()
 
+    def rows(self, name):
+        self.assertIn(f"{name} status 0", self.text("log"), self.text(name))
+        return rows_of(self.out[name + ".csv"])
+
     def test_camera_is_listed_with_identity_format_size_and_rate(self):
         listing = self.text("list")
         for words in ["v4l2:/dev/video0", "1209:0001", "DISFLOW-TEST-1", "format=Z16", "320x240 at 30"]:
@@ -100,24 +65,15 @@ unplug
         self.assertLess(rate, RATE_HZ * 1.05)
 
     def test_every_frame_of_a_slow_camera_is_tracked_as_in_a_replay(self):
-        rows = self.check_trajectory("slow", SLOW_FRAMES)
+        rows = self.rows("slow")
+        check_trajectory(self, self.sequence, "slow", rows)
         self.assertGreater(len(rows), 0.8 * SLOW_FRAMES)
         self.assertGreater(sum(row["state"] == "tracking" for row in rows), 0.6 * len(rows))
         setting.figures.append(f"x86, {SLOW_HZ} fps: {len(rows)} of {SLOW_FRAMES} frames tracked, "
                                "trajectory equal to the replay's to the bit")
 
     def test_camera_too_fast_for_the_tracker_loses_only_counted_frames(self):
-        rows = self.check_trajectory("live", FRAMES)
+        rows = self.rows("live")
+        check_trajectory(self, self.sequence, "live", rows)
         setting.figures.append(f"x86, 30 fps: {len(rows)} of {FRAMES} frames tracked, the others counted "
                                "as dropped, trajectory equal to the replay's to the bit")
-
-    def check_trajectory(self, name, frame_count):
-        rows = rows_of(self.out[name + ".csv"])
-        self.assertIn(f"{name} status 0", self.text("log"))
-        frames = [(row, number + int(row["dropped"])) for number, row in enumerate(rows)]
-        self.assertLess(frames[-1][1], frame_count, self.text(name))
-        replayed = replay(self.sequence, "replay_" + name, frames)
-        for row in rows + replayed:
-            del row["dropped"]
-        self.assertEqual(rows, replayed)
-        return rows

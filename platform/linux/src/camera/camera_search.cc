@@ -33,7 +33,9 @@ Fault FindBySerial(const CameraSearch& search, const std::vector<VideoNode>& nod
       node = candidate;
       return {};
     }
-    if (!candidate.serial.empty()) serials += (serials.empty() ? "" : ", ") + candidate.serial;
+    // The nodes of one camera stand next to each other.
+    if (candidate.serial.empty() || serials.ends_with(candidate.serial)) continue;
+    serials += (serials.empty() ? "" : ", ") + candidate.serial;
   }
   if (found) {
     return MakeFault(Status::kUnsupported,

@@ -1,0 +1,146 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What goes wrong with a camera, on a stock x86 kernel: the documented state, no crash, true counters."""
+import os
+import re
+import unittest
+
+import setting
+from guest import Guest
+from live import SCRIPT, check_trajectory, make_kernel, rows_of
+from sequences import Sequence
+
+FRAMES = 40
+_HZ = 4
+_SENSOR = "v4l2:/dev/video0?format=Z16&depth_scale=0.001&intrinsics=/cam.toml"
+
+
+def _refusals(k_option):
+    """name: address of a sensor that must be refused."""
+    device = "v4l2:/dev/video0?"
+    return {
+        "format": device + "format=Y16&depth_scale=0.001&" + k_option,
+        "size": device + "width=640&height=480&depth_scale=0.001&" + k_option,
+        "rate": device + "fps=60&depth_scale=0.001&" + k_option,
+        "unit": device + k_option,
+        "intrinsics": device + "depth_scale=0.001",
+        "metadata": "v4l2:/dev/video1?depth_scale=0.001&" + k_option,
+        "missing": "v4l2:/dev/video7?depth_scale=0.001&" + k_option,
+        "serial": "v4l2:serial=NOBODY?depth_scale=0.001&" + k_option,
+    }
+
+
+class CameraFaults(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        kernel = make_kernel("amd64")
+        cls.sequence = Sequence(setting.programs, os.path.join(setting.folder, "box_faults"),
+                                frames=FRAMES)
+        cls.refusals = _refusals(cls.sequence.k_option())
+        guest = Guest(kernel, os.path.join(setting.folder, "faults"))
+        guest.add_modules(["vhci_hcd", "uvcvideo"])
+        for program in ["hil_usb_camera", "hil_frame_log", "disflow_track"]:
+            guest.add_program(os.path.join(setting.programs, program))
+        guest.add_file("frames", cls.sequence.raw)
+        guest.add_text("cam.toml", cls.sequence.camera_file())
+        cls.out = guest.boot(SCRIPT + cls.script(), timeout_s=240)
+
+    @classmethod
+    def script(cls):
+        refused = "".join(f'try {name} "{uri}"\n' for name, uri in cls.refusals.items())
+        return f"""
+try() {{
+  disflow_track --sensor "$2" --headless --csv /out/try.csv 2>"/out/refused_$1"
+  echo "refused_$1 status $?"
+}}
+nodrop() {{ echo $1 >/sys/module/uvcvideo/parameters/nodrop; }}
+# Refused at the start, and busy.
+camera --vendor 4660
+plugged
+{refused}
+hil_frame_log "{_SENSOR.replace('intrinsics=/cam.toml', cls.sequence.k_option())}" 30 >/dev/null & taker=$!
+usleep 700000
+try busy "{_SENSOR}"
+kill $taker
+unplug
+try before_start "{_SENSOR}"
+# A known model needs no unit.
+camera --vendor 32902 --product 2823 --fps 30
+plugged
+hil_frame_log "v4l2:/dev/video0?{cls.sequence.k_option()}" 3 >/out/known_model
+unplug
+# Damaged frames as the driver marks them, silence, unplugging.
+nodrop 1
+camera --fps {_HZ} --fault 8:error --fault 11:short --fault 14:stall=2600 --fault 24:detach=900
+track damaged "{_SENSOR}"
+unplug
+# The same damage when the driver hides it.
+nodrop 0
+camera --fps {_HZ} --count 12 --fault 5:error --fault 8:short
+track hidden "{_SENSOR}"
+unplug
+# A tracker that is stopped for a while.
+camera --fps 30
+plugged
+disflow_track --sensor "{_SENSOR}" --csv /out/stopped.csv --headless --no-timing 2>/out/stopped & track=$!
+usleep 500000; kill -STOP $track; usleep 600000; kill -CONT $track
+played; kill -INT $track; wait $track; echo "stopped status $?"
+unplug
+"""
+
+    def text(self, name):
+        return self.out[name].decode()
+
+    def rows(self, name):
+        self.assertIn(f"{name} status 0", self.text("log"), self.text(name))
+        return rows_of(self.out[name + ".csv"])
+
+    def test_what_cannot_be_had_is_refused_with_the_reason(self):
+        words = {"format": "it has: Z16", "size": "sizes: 320x240", "rate": "rates: 30",
+                 "unit": "depth_scale=", "intrinsics": "intrinsics=FILE.toml",
+                 "metadata": "captures no images", "missing": "no such device",
+                 "serial": "DISFLOW-TEST-1", "busy": "another program",
+                 "before_start": "no such device"}
+        for name, reason in words.items():
+            with self.subTest(name):
+                self.assertIn(reason, self.text("refused_" + name))
+                status = 2 if name == "intrinsics" else 3
+                self.assertIn(f"refused_{name} status {status}", self.text("log"))
+
+    def test_known_model_needs_no_unit(self):
+        self.assertEqual(self.text("known_model").count("frame "), 3)
+
+    def test_damage_silence_and_unplugging_end_in_tracking_with_true_counters(self):
+        rows = self.rows("damaged")
+        # A damaged frame gives a row unless a good one followed before the tracker was ready.
+        self.assertLessEqual({row["status"] for row in rows}, {"ok", "corrupt", "truncated"})
+        report = self.text("damaged")
+        self.assertIn("2 corrupt", report)
+        self.assertIn("stream started anew 1 times", report)
+        self.assertIn("sensor came back 1 times", report)
+        self.assertIn("waiting for it to come back", report)
+        self.assertIn("the sensor is back", report)
+        self.assertEqual(rows[-1]["state"], "tracking", report)
+        # The end of the list is reached whatever was lost on the way.
+        self.assertGreater(len(rows), 0.7 * FRAMES)
+        resets = [int(row["reset_counter"]) for row in rows]
+        self.assertEqual(resets, sorted(resets))
+        self.assertGreater(resets[-1], resets[0])
+        setting.figures.append(f"x86: {len(rows)} of {FRAMES} frames through a damaged frame, a short one, "
+                               f"2.6 s of silence and 0.9 s unplugged; reset_counter {resets[0]} to {resets[-1]}, "
+                               f"at the end {rows[-1]['state']}")
+
+    def test_frames_that_the_driver_hides_are_counted_as_gaps(self):
+        rows = self.rows("hidden")
+        self.assertEqual({row["status"] for row in rows}, {"ok"})
+        gaps = int(re.search(r"\((\d+) in the driver", self.text("hidden")).group(1))
+        self.assertEqual(gaps, 2)
+        check_trajectory(self, self.sequence, "hidden", rows)
+
+    def test_frames_that_a_stopped_program_missed_are_counted(self):
+        rows = self.rows("stopped")
+        self.assertGreater(int(re.search(r"\((\d+) in the driver", self.text("stopped")).group(1)), 5)
+        check_trajectory(self, self.sequence, "stopped", rows)
+
+    def test_kernel_is_unharmed(self):
+        for word in ["Oops", "BUG:", "WARNING:", "segfault"]:
+            self.assertNotIn(word, self.text("dmesg"))
