@@ -76,8 +76,11 @@ class Guest:
         for library in libraries(self._kernel.arch, path):
             self._archive.add_file(library.lstrip("/"), os.path.realpath(library))
 
-    def boot(self, script, timeout_s, extra=()):
-        """Runs the script and returns {name: bytes} of what it left in /out."""
+    def boot(self, script, timeout_s, serial=None, extra=()):
+        """Runs the script and returns {name: bytes} of what it left in /out.
+
+        serial: where QEMU connects the board's serial port; without it the kernel's messages go there.
+        """
         self._archive.add_bytes("script", script.encode())
         files = self._kernel.modules(self._modules)
         self._archive.add_bytes("modules/order",
@@ -87,13 +90,15 @@ class Guest:
         initrd = os.path.join(self._folder, "initrd")
         self._archive.write(initrd)
         output = os.path.join(self._folder, "out.tar")
-        console = os.path.join(self._folder, "console.txt")
+        console = self._machine.console if serial is None else "hvc0"
+        if serial is None:
+            serial = "file:" + os.path.join(self._folder, "console.txt")
         command = [self._machine.program, *self._machine.arguments,
                    "-kernel", self._kernel.image, "-initrd", initrd,
-                   "-append", "console=" + self._machine.console + " panic=-1 quiet",
+                   "-append", "console=" + console + " panic=-1 quiet", "-serial", serial,
                    "-chardev", "file,id=out,path=" + output,
                    "-device", "virtserialport,chardev=out,name=out",
-                   *(extra or ["-serial", "file:" + console])]
+                   *extra]
         try:
             result = subprocess.run(command, timeout=timeout_s, capture_output=True, text=True,
                                     check=False)

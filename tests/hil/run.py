@@ -12,7 +12,7 @@ import unittest
 
 import setting
 
-_SUITES = ["x86_camera", "faults"]
+_SUITES = ["x86_camera", "faults", "arm_board"]
 
 
 class _Result(unittest.TextTestResult):
