@@ -1,12 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Bare-metal Cortex-M7 with double-precision FPU registers. Debian: gcc-arm-none-eabi, libstdc++-arm-none-eabi-newlib.
-set(CMAKE_SYSTEM_NAME Generic)
+# Bare-metal Cortex-M7. Debian: gcc-arm-none-eabi, libnewlib-arm-none-eabi, libstdc++-arm-none-eabi-dev (headers).
+set(DISFLOW_CPU_FLAGS "-mcpu=cortex-m7 -mthumb -mfloat-abi=hard")
+# Single precision: every Cortex-M7 with an FPU runs it, and a double that slips into the frame path shows in the image
+# as a call of __aeabi_d*.
+string(APPEND DISFLOW_CPU_FLAGS " -mfpu=fpv5-sp-d16")
 set(CMAKE_SYSTEM_PROCESSOR cortex-m7)
-set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
-set(CMAKE_C_COMPILER arm-none-eabi-gcc)
-set(CMAKE_CXX_COMPILER arm-none-eabi-g++)
-set(CMAKE_CXX_FLAGS_INIT
-  "-mcpu=cortex-m7 -mthumb -mfpu=fpv5-d16 -mfloat-abi=hard -ffunction-sections -fdata-sections")
-# Eigen's NEON paths do not compile where int32_t is long, and this core has no NEON.
-string(APPEND CMAKE_CXX_FLAGS_INIT " -DEIGEN_DONT_VECTORIZE")
-set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
+include(${CMAKE_CURRENT_LIST_DIR}/arm-none-eabi.cmake)

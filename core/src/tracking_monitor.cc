@@ -91,9 +91,8 @@ TrackingState TrackingMonitor::AfterRegistered(const Evidence& evidence) const n
 }
 
 bool TrackingMonitor::ShouldRestart(StampNs stamp_ns) const noexcept {
-  const double lost_s = static_cast<double>(stamp_ns - last_registered_ns_) * 1e-9;
-  return state_ == TrackingState::kLost &&
-         lost_s > static_cast<double>(config_.reinitialise_after_s);
+  const float lost_s = Seconds(stamp_ns - last_registered_ns_);
+  return state_ == TrackingState::kLost && lost_s > config_.reinitialise_after_s;
 }
 
 }  // namespace disflow

@@ -32,9 +32,8 @@ Mat6 InitialAcceleration() noexcept {
                   kInitialAngularAccelerationStd_rps2 * kInitialAngularAccelerationStd_rps2);
 }
 
-float Seconds(StampNs from_ns, StampNs to_ns) noexcept {
-  const double seconds = static_cast<double>(to_ns - from_ns) * 1e-9;
-  return std::clamp(static_cast<float>(seconds), 0.0F, kMaxStep_s);
+float StepSeconds(StampNs from_ns, StampNs to_ns) noexcept {
+  return std::clamp(Seconds(to_ns - from_ns), 0.0F, kMaxStep_s);
 }
 
 PoseCameraFromObject Moved(const PoseCameraFromObject& T_co, const Vec6& displacement) noexcept {
@@ -71,11 +70,11 @@ void TwistFilter::Start(const TwistFilterConfig& config, StampNs stamp_ns,
 }
 
 PoseCameraFromObject TwistFilter::Extrapolate(StampNs stamp_ns) const noexcept {
-  return Moved(T_co_, Seconds(stamp_ns_, stamp_ns) * twist_);
+  return Moved(T_co_, StepSeconds(stamp_ns_, stamp_ns) * twist_);
 }
 
 void TwistFilter::Predict(StampNs stamp_ns) noexcept {
-  const float dt = Seconds(stamp_ns_, stamp_ns);
+  const float dt = StepSeconds(stamp_ns_, stamp_ns);
   const float half_dt2 = 0.5F * dt * dt;
   last_step_s_ = dt;
   T_co_ = Moved(T_co_, dt * twist_ + half_dt2 * acceleration_);

@@ -35,12 +35,12 @@ struct Micro {
   static constexpr int kMaxRuns = 1024;
   static constexpr int kMaxBlocks = 1536;
   static constexpr int kMaxSurfaceSamples = 512;
-  static constexpr int kMaxEdgePoints = 96;
+  static constexpr int kMaxEdgePoints = 128;
   static constexpr int kMaxNodes = 512;
   static constexpr int kMaxClusters = 320;
   static constexpr int kMaxSamplesPerCluster = 20;
   static constexpr int kMaxTrainingSamples = 12;
-  static constexpr int kMaxModelEdges = 192;
+  static constexpr int kMaxModelEdges = 512;
   static constexpr int kMaxSeenViews = 3;
   static constexpr int kSeenCells = 24;
   static constexpr int kMaxRegistrationPoints = 250;

@@ -68,7 +68,7 @@ class Tracker {
       5;  ///< Frames after a start during which training catches up.
   static constexpr std::uint32_t kFramesUntilVelocity = 3;
   static constexpr int kInitialBudgetFactor = 12;
-  static constexpr double kFade_s = 0.5;  ///< Time constant of the velocity of an unseen object.
+  static constexpr float kFade_s = 0.5F;  ///< Time constant of the velocity of an unseen object.
   static constexpr float kDefinedPoseVariance = 1e-10F;  ///< (0.01 mm)^2 and (0.01 mrad)^2.
   static constexpr float kKnownPoseVariance = 1e-8F;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "disflow/field/fast_math.h"
 #include "disflow/field/known_surface.h"
 #include "disflow/flow/weak_direction.h"
 #include "disflow/geometry/symmetric_solver.h"
@@ -257,10 +258,11 @@ Status Tracker<Limits>::Conclude(const DepthFrame& frame, Status observed, const
 template <class Limits>
 PoseCameraFromObject Tracker<Limits>::Predict(const DepthFrame& frame) const noexcept {
   if (!monitor_.Doubts(frame.stamp_ns)) return twist_filter_.Extrapolate(frame.stamp_ns);
-  const double gap_s = static_cast<double>(frame.stamp_ns - twist_filter_.stamp_ns()) * 1e-9;
-  const double moved_s = kFade_s * (1.0 - std::exp(-gap_s / kFade_s));
+  const float gap_s = Seconds(frame.stamp_ns - twist_filter_.stamp_ns());
+  const float moved_s = kFade_s * (1.0F - FastExpNonPositive(-gap_s / kFade_s));
+  const auto moved_us = static_cast<std::int32_t>(moved_s * 1e6F);
   PoseCameraFromObject T_co =
-      twist_filter_.Extrapolate(twist_filter_.stamp_ns() + static_cast<StampNs>(moved_s * 1e9));
+      twist_filter_.Extrapolate(twist_filter_.stamp_ns() + StampNs{moved_us} * 1000);
   const auto in_view = [&frame](const Vec3& x_c) {
     if (!(x_c.z() > 0.0F)) return false;
     const Vec2 px = frame.camera.Project(x_c);
@@ -279,8 +281,7 @@ bool Tracker<Limits>::IsSameObjectFrame(const DepthFrame& frame,
                                         const PoseObjectFromCamera& T_oc) const noexcept {
   constexpr float kReach_rad = 0.7F;
   constexpr float kFarthestTurn_rad = 1.6F;
-  const auto gap_s =
-      static_cast<float>(static_cast<double>(frame.stamp_ns - twist_filter_.stamp_ns()) * 1e-9);
+  const float gap_s = Seconds(frame.stamp_ns - twist_filter_.stamp_ns());
   const Vec3 off = LogSo3(Mat3(T_oc.rotation() * T_oc_.rotation().transpose()));
   return off.norm() <= kReach_rad &&
          gap_s * twist_filter_.twist().angular_rps.norm() <= kFarthestTurn_rad;

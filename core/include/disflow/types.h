@@ -27,6 +27,11 @@ using Mat6 = Mat<float, 6, 6>;
 /// Nanoseconds on a monotonic clock, see DepthFrame::stamp_ns.
 using StampNs = std::int64_t;
 
+/// A span of time in seconds. Only with float: many controllers compute double by software.
+[[nodiscard]] constexpr float Seconds(StampNs span_ns) noexcept {
+  return static_cast<float>(span_ns) * 1e-9F;
+}
+
 /// Tags that name coordinate frames in types: a Transform<Object, Camera> cannot be mixed up with
 /// its inverse.
 struct Camera {};  ///< Optical frame: x right, y down, z forward, metres.

@@ -17,6 +17,8 @@ constexpr std::array kKnownMessages{
     KnownMessage{Heartbeat::kId, CrcExtra<Heartbeat>()},
     KnownMessage{Odometry::kId, CrcExtra<Odometry>()},
     KnownMessage{DisflowStatus::kId, CrcExtra<DisflowStatus>()},
+    KnownMessage{DisflowReady::kId, CrcExtra<DisflowReady>()},
+    KnownMessage{DisflowTiming::kId, CrcExtra<DisflowTiming>()},
 };
 
 }  // namespace

@@ -43,10 +43,6 @@ Covariance RotatedUpperTriangle(const Mat3& rotation, const Mat6& covariance) no
   return packed;
 }
 
-std::uint64_t MicrosecondsOf(StampNs stamp_ns) noexcept {
-  return stamp_ns < 0 ? 0 : static_cast<std::uint64_t>(stamp_ns / kNsPerUs);
-}
-
 bool IsFinite(const Estimate& estimate) noexcept {
   return estimate.T_co.IsFinite() && estimate.twist.linear_mps.allFinite() &&
          estimate.twist.angular_rps.allFinite() && (!estimate.has_T_wo || estimate.T_wo.IsFinite());
@@ -98,6 +94,10 @@ void SetTwist(const Twist& twist, const Mat3& rotation, Odometry& odometry) noex
 }
 
 }  // namespace
+
+std::uint64_t MicrosecondsOf(StampNs stamp_ns) noexcept {
+  return stamp_ns < 0 ? 0 : static_cast<std::uint64_t>(stamp_ns / kNsPerUs);
+}
 
 Fault Validate(const TelemetryOptions& options) noexcept {
   if (options.system_id == 0) {

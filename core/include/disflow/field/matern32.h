@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cmath>
-
+#include "disflow/field/fast_math.h"
 #include "disflow/types.h"
 
 namespace disflow {
@@ -23,7 +22,7 @@ struct Matern32Block {
                                         float amplitude_squared) noexcept {
     const Vec3 e = p - q;
     const float r = e.norm();
-    return {e, r, amplitude_squared * std::exp(-r)};
+    return {e, r, amplitude_squared * FastExpNonPositive(-r)};
   }
 
   /// cov(d(p), d(p'))

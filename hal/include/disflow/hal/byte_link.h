@@ -16,7 +16,8 @@ struct LinkCounters {
   std::uint32_t refused_messages = 0;  ///< The peer answered that nobody listens there (UDP).
   std::uint64_t sent_bytes = 0;
   std::uint64_t received_bytes = 0;
-  std::uint32_t reconnects = 0;  ///< Times Open() brought back a link that had been lost.
+  std::uint32_t overrun_bytes = 0;  ///< Arrived while the receive buffer was full (UART).
+  std::uint32_t reconnects = 0;     ///< Times Open() brought back a link that had been lost.
 };
 
 /// Something that carries bytes both ways: UDP socket, serial port, UART. Never blocks. Not

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 
@@ -170,6 +171,56 @@ struct DisflowStatus {
     field("corrupt_frames", message.corrupt_frames, FieldKind::kExtension);
     field("sensor_restarts", message.sensor_restarts, FieldKind::kExtension);
     field("sensor_reconnects", message.sensor_reconnects, FieldKind::kExtension);
+  }
+};
+
+/// DISFLOW_READY (#13721361 = 0xD15F11), private: a controller that gets its depth images over this
+/// line can take the next one. Counts since it started.
+struct DisflowReady {
+  static constexpr std::uint32_t kId = 0xD15F11;
+  static constexpr std::string_view kName = "DISFLOW_READY";
+
+  std::uint32_t sequence = 0;         ///< Of the frame or poll that this answers; 0 = none yet.
+  std::uint32_t frames = 0;           ///< Whole frames handed to the tracker.
+  std::uint32_t frames_lost = 0;      ///< Begun, but not received whole.
+  std::uint32_t frames_refused = 0;   ///< Larger than the memory for them, or without intrinsics.
+  std::uint32_t packets = 0;          ///< With a right checksum.
+  std::uint32_t packets_corrupt = 0;  ///< Garbage between delimiters, whatever it was.
+  std::uint32_t bytes_lost = 0;       ///< Arrived while the receive buffer was full.
+
+  template <class Self, class Visitor>
+  static constexpr void VisitFields(Self& message, Visitor& field) {
+    field("sequence", message.sequence);
+    field("frames", message.frames);
+    field("frames_lost", message.frames_lost);
+    field("frames_refused", message.frames_refused);
+    field("packets", message.packets);
+    field("packets_corrupt", message.packets_corrupt);
+    field("bytes_lost", message.bytes_lost);
+  }
+};
+
+/// DISFLOW_TIMING (#13721362 = 0xD15F12), private: where a controller's time and stack went.
+struct DisflowTiming {
+  static constexpr std::uint32_t kId = 0xD15F12;
+  static constexpr std::string_view kName = "DISFLOW_TIMING";
+  static constexpr std::size_t kStages = 6;
+
+  std::uint64_t time_usec = 0;                    ///< Capture time, as in ODOMETRY.
+  std::uint64_t frame_ns = 0;                     ///< The tracker's whole work on this frame.
+  std::array<std::uint64_t, kStages> stage_ns{};  ///< In the order of disflow::Stage.
+  std::uint32_t stages_late = 0;                  ///< Stages beyond their budget, since the start.
+  std::uint32_t restarts = 0;                     ///< By the watchdog or a fault, since power-on.
+  std::uint32_t stack_bytes = 0;                  ///< Most that the stack has ever held.
+
+  template <class Self, class Visitor>
+  static constexpr void VisitFields(Self& message, Visitor& field) {
+    field("time_usec", message.time_usec);
+    field("frame_ns", message.frame_ns);
+    field("stage_ns", message.stage_ns);
+    field("stages_late", message.stages_late);
+    field("restarts", message.restarts);
+    field("stack_bytes", message.stack_bytes);
   }
 };
 

@@ -40,6 +40,9 @@ struct SendContext {
   Counters totals;  ///< Tracker::totals().
 };
 
+/// A capture stamp as messages carry it; 0 for what lies before the clock's start.
+[[nodiscard]] std::uint64_t MicrosecondsOf(StampNs stamp_ns) noexcept;
+
 /// @param pose_frame See TelemetryOptions.
 [[nodiscard]] Odometry MakeOdometry(const Estimate& estimate, MavFrame pose_frame) noexcept;
 [[nodiscard]] DisflowStatus MakeStatus(const Estimate& estimate,
@@ -57,23 +60,23 @@ class TelemetryEncoder {
   /// @return Bytes written, or kCapacityExceeded if `out` is too small.
   [[nodiscard]] Expected<std::size_t> EncodeOdometry(const Estimate& estimate,
                                                      std::span<std::byte> out) noexcept {
-    return Encode(MakeOdometry(estimate, options_.pose_frame), out);
+    return EncodeMessage(MakeOdometry(estimate, options_.pose_frame), out);
   }
   [[nodiscard]] Expected<std::size_t> EncodeStatus(const Estimate& estimate,
                                                    const SendContext& context,
                                                    std::span<std::byte> out) noexcept {
-    return Encode(MakeStatus(estimate, context), out);
+    return EncodeMessage(MakeStatus(estimate, context), out);
   }
   /// Send once per second, so that receivers notice a silent tracker.
   [[nodiscard]] Expected<std::size_t> EncodeHeartbeat(TrackingState state,
                                                       std::span<std::byte> out) noexcept {
-    return Encode(MakeHeartbeat(state), out);
+    return EncodeMessage(MakeHeartbeat(state), out);
   }
 
- private:
+  /// Any other message in the name of this object.
   template <class Message>
-  [[nodiscard]] Expected<std::size_t> Encode(const Message& message,
-                                             std::span<std::byte> out) noexcept {
+  [[nodiscard]] Expected<std::size_t> EncodeMessage(const Message& message,
+                                                    std::span<std::byte> out) noexcept {
     const FrameHeader header{
         .sequence = sequence_,
         .system_id = options_.system_id,
@@ -83,6 +86,7 @@ class TelemetryEncoder {
     return size;
   }
 
+ private:
   TelemetryOptions options_;
   std::uint8_t sequence_ = 0;
 };

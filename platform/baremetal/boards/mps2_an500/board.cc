@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file
+/// Arm MPS2 with the AN500 image: Cortex-M7 at 25 MHz; qemu-system-arm -M mps2-an500. Depth images
+/// come over UART 0, telemetry goes back over it.
+
+#include "disflow/baremetal/board.h"
+
+#include <array>
+
+#include "../../src/cmsdk_uart.h"
+#include "disflow/baremetal/startup.h"
+#include "disflow/baremetal/stream_memory.h"
+#include "disflow/baremetal/tick_clock.h"
+#include "disflow/hal/depth_stream/stream_sensor.h"
+
+namespace disflow::baremetal {
+namespace {
+
+constexpr std::uint32_t kClockHz = 25'000'000;
+constexpr std::uintptr_t kUart0 = 0x40004000;
+constexpr std::uint32_t kBaud = 921'600;
+constexpr std::uintptr_t kTimer0 = 0x40000000;
+
+/// The timer counts down.
+std::uint32_t ReadTicks() noexcept { return ~Register(kTimer0 + 4); }
+
+TickClock<ReadTicks, kClockHz> board_clock;
+CmsdkUart uart(kUart0, kClockHz, kBaud);
+hal::depth_stream::StreamSensor depth_source(uart, board_clock, StreamImage(), Budgets());
+
+void OnUartReceive() { uart.OnReceive(); }
+void OnUartTransmit() { uart.OnTransmit(); }
+
+DISFLOW_BOARD_VECTORS const Vector kBoardVectors[] = {OnUartReceive, OnUartTransmit};
+
+}  // namespace
+
+void StartBoard() noexcept {
+  Register(kTimer0 + 8) = 0xFFFFFFFF;  // reload
+  Register(kTimer0 + 4) = 0xFFFFFFFF;
+  Register(kTimer0) = 1;
+  EnableInterrupt(0);
+  EnableInterrupt(1);
+}
+
+hal::ByteLink& BoardUart() noexcept { return uart; }
+hal::Clock& BoardClock() noexcept { return board_clock; }
+hal::DepthSensor& BoardDepthSource() noexcept { return depth_source; }
+
+}  // namespace disflow::baremetal
