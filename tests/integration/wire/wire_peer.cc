@@ -112,6 +112,8 @@ std::size_t Encode(const json& vector, std::span<std::byte> out) {
   if (name == Heartbeat::kName) return EncodeFromJson<Heartbeat>(vector, out);
   if (name == Odometry::kName) return EncodeFromJson<Odometry>(vector, out);
   if (name == DisflowStatus::kName) return EncodeFromJson<DisflowStatus>(vector, out);
+  if (name == DisflowReady::kName) return EncodeFromJson<DisflowReady>(vector, out);
+  if (name == DisflowTiming::kName) return EncodeFromJson<DisflowTiming>(vector, out);
   Fail("unknown message " + name);
 }
 
@@ -163,9 +165,10 @@ int Receive(hal::ByteLink& link, std::uint32_t count) {
     while (!bytes.empty()) {
       bytes = bytes.subspan(decoder.Feed(bytes));
       while (decoder.Next(frame)) {
-        if (!PrintIf<Heartbeat>(frame) && !PrintIf<Odometry>(frame)) {
-          (void)PrintIf<DisflowStatus>(frame);
-        }
+        // Whichever it is; the decoder knows no other.
+        (void)(PrintIf<Heartbeat>(frame) || PrintIf<Odometry>(frame) ||
+               PrintIf<DisflowStatus>(frame) || PrintIf<DisflowReady>(frame) ||
+               PrintIf<DisflowTiming>(frame));
       }
     }
   }

@@ -90,10 +90,12 @@ template <class Message>
   return static_cast<std::uint8_t>((crc & 0xFFU) ^ (crc >> 8U));
 }
 
-// The published figures of the two standard messages prove the rule; the private one's
+// The published figures of the two standard messages prove the rule; the private ones'
 // stand in docs/wire-format.md and must never change.
 static_assert(PayloadSize<Heartbeat>() == 9 && CrcExtra<Heartbeat>() == 50);
 static_assert(PayloadSize<Odometry>() == 233 && CrcExtra<Odometry>() == 91);
 static_assert(PayloadSize<DisflowStatus>() == 76 && CrcExtra<DisflowStatus>() == 237);
+static_assert(PayloadSize<DisflowReady>() == 28 && CrcExtra<DisflowReady>() == 194);
+static_assert(PayloadSize<DisflowTiming>() == 76 && CrcExtra<DisflowTiming>() == 7);
 
 }  // namespace disflow::hal::mavlink
