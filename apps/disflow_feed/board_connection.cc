@@ -20,8 +20,8 @@ void Append(std::vector<std::vector<std::byte>>& packets, std::span<const std::b
 
 }  // namespace
 
-std::vector<std::vector<std::byte>> BoardConnection::Packets(const DepthFrame& frame) {
-  const std::uint32_t sequence = sequence_ + 1;
+std::vector<std::vector<std::byte>> BoardConnection::Packets(const DepthFrame& frame,
+                                                             std::uint32_t sequence) {
   std::vector<std::vector<std::byte>> packets;
   EncodedPacket buffer;
   const DepthView& depth = frame.depth;
@@ -48,7 +48,7 @@ std::vector<std::vector<std::byte>> BoardConnection::Packets(const DepthFrame& f
 
 hal::Fault BoardConnection::Track(const DepthFrame& frame, std::int64_t timeout_ns,
                                   BoardAnswer& answer) {
-  return TrackPackets(Packets(frame), timeout_ns, answer);
+  return TrackPackets(NextPackets(frame), timeout_ns, answer);
 }
 
 hal::Fault BoardConnection::TrackPackets(const std::vector<std::vector<std::byte>>& packets,
@@ -59,14 +59,14 @@ hal::Fault BoardConnection::TrackPackets(const std::vector<std::vector<std::byte
     const hal::Fault fault = SendAll(packet);
     if (!fault.ok()) return fault;
   }
-  return Await(timeout_ns, answer);
+  return Await(timeout_ns, true, answer);
 }
 
 hal::Fault BoardConnection::WaitUntilReady(std::int64_t timeout_ns) {
   EncodedPacket buffer;
   const hal::Fault fault = SendAll(EncodePoll(++sequence_, buffer));
   BoardAnswer answer;
-  return fault.ok() ? Await(timeout_ns, answer) : fault;
+  return fault.ok() ? Await(timeout_ns, true, answer) : fault;
 }
 
 hal::Fault BoardConnection::SetBudgets(const TimeBudgets& budgets) {
@@ -83,7 +83,14 @@ hal::Fault BoardConnection::SendAll(std::span<const std::byte> bytes) {
   }
 }
 
-hal::Fault BoardConnection::Await(std::int64_t timeout_ns, BoardAnswer& answer) {
+hal::Fault BoardConnection::AwaitRecorded(std::uint32_t sequence, std::int64_t timeout_ns,
+                                          BoardAnswer& answer) {
+  sequence_ = sequence;
+  answer = {};
+  return Await(timeout_ns, false, answer);
+}
+
+hal::Fault BoardConnection::Await(std::int64_t timeout_ns, bool poll, BoardAnswer& answer) {
   const std::int64_t begin_ns = clock_.NowNs();
   std::int64_t next_poll_ns = begin_ns + kPollEvery_ns;
   for (;;) {
@@ -97,7 +104,7 @@ hal::Fault BoardConnection::Await(std::int64_t timeout_ns, BoardAnswer& answer) 
                             "both ends have the same baud rate?",
                             link_.name());
     }
-    if (now_ns > next_poll_ns) {
+    if (poll && now_ns > next_poll_ns) {
       // The end of the frame, or the answer to it, may have been lost.
       next_poll_ns = now_ns + kPollEvery_ns;
       EncodedPacket buffer;
@@ -109,26 +116,36 @@ hal::Fault BoardConnection::Await(std::int64_t timeout_ns, BoardAnswer& answer) 
 }
 
 hal::Fault BoardConnection::Receive(BoardAnswer& answer, bool& ready) {
-  std::array<std::byte, 1024> buffer;
-  const Expected<std::size_t> received = link_.Receive(buffer);
-  if (!received.ok()) {
-    return hal::MakeFault(received.status, "%s: %s", link_.name(), Describe(received.status));
-  }
-  auto bytes = std::span<const std::byte>(buffer).first(received.value);
   hal::mavlink::FrameView frame;
-  while (!bytes.empty()) {
-    bytes = bytes.subspan(decoder_.Feed(bytes));
+  for (;;) {
     while (decoder_.Next(frame)) {
-      if (DecodePayload(frame, answer.odometry) == Status::kOk) {
-        answer.tracked = true;
-      } else if (DecodePayload(frame, answer.ready) == Status::kOk) {
-        ready = ready || answer.ready.sequence == sequence_;
-      } else if (DecodePayload(frame, answer.status) != Status::kOk) {
-        (void)DecodePayload(frame, answer.timing);  // what is neither is of no interest here
+      if (Take(frame, answer)) {
+        ready = true;
+        return {};
       }
     }
+    if (rest_.empty()) {
+      const Expected<std::size_t> size = link_.Receive(received_);
+      if (!size.ok()) {
+        return hal::MakeFault(size.status, "%s: %s", link_.name(), Describe(size.status));
+      }
+      if (size.value == 0) return {};
+      rest_ = std::span<const std::byte>(received_).first(size.value);
+    }
+    rest_ = rest_.subspan(decoder_.Feed(rest_));
   }
-  return {};
+}
+
+bool BoardConnection::Take(const hal::mavlink::FrameView& frame, BoardAnswer& answer) const {
+  if (DecodePayload(frame, answer.odometry) == Status::kOk) {
+    answer.tracked = true;
+    return false;
+  }
+  if (DecodePayload(frame, answer.ready) == Status::kOk) return answer.ready.sequence == sequence_;
+  if (DecodePayload(frame, answer.status) != Status::kOk) {
+    (void)DecodePayload(frame, answer.timing);  // what is neither is of no interest here
+  }
+  return false;
 }
 
 }  // namespace disflow::apps

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstdint>
-#include <functional>
+#include <span>
 #include <vector>
 
 #include "disflow/depth/depth_frame.h"
@@ -37,11 +38,20 @@ class BoardConnection {
   /// @return As WaitUntilReady().
   [[nodiscard]] hal::Fault Track(const DepthFrame& frame, std::int64_t timeout_ns,
                                  BoardAnswer& answer);
-  /// The packets of a frame, one after the other, as Track() would send it now.
-  [[nodiscard]] std::vector<std::vector<std::byte>> Packets(const DepthFrame& frame);
+  /// The packets of a frame, one after the other.
+  [[nodiscard]] static std::vector<std::vector<std::byte>> Packets(const DepthFrame& frame,
+                                                                   std::uint32_t sequence);
+  /// As Track() would send it now.
+  [[nodiscard]] std::vector<std::vector<std::byte>> NextPackets(const DepthFrame& frame) const {
+    return Packets(frame, sequence_ + 1);
+  }
   /// Sends bytes as they are and waits for the answer to the frame that they stand for.
   [[nodiscard]] hal::Fault TrackPackets(const std::vector<std::vector<std::byte>>& packets,
                                         std::int64_t timeout_ns, BoardAnswer& answer);
+
+  /// Waits for the answer to a frame that the controller has by other ways than this line.
+  [[nodiscard]] hal::Fault AwaitRecorded(std::uint32_t sequence, std::int64_t timeout_ns,
+                                         BoardAnswer& answer);
 
   [[nodiscard]] const hal::mavlink::DecoderCounters& counters() const {
     return decoder_.counters();
@@ -50,13 +60,17 @@ class BoardConnection {
  private:
   [[nodiscard]] hal::Fault SendAll(std::span<const std::byte> bytes);
   /// Until the controller is ready after the frame or poll with the last sequence number.
-  [[nodiscard]] hal::Fault Await(std::int64_t timeout_ns, BoardAnswer& answer);
-  /// Takes what has arrived. @param ready Set if the awaited DISFLOW_READY was among it.
+  [[nodiscard]] hal::Fault Await(std::int64_t timeout_ns, bool poll, BoardAnswer& answer);
+  /// Takes what has arrived, up to the awaited DISFLOW_READY. @param ready Whether it was there.
   [[nodiscard]] hal::Fault Receive(BoardAnswer& answer, bool& ready);
+  /// @return Whether this was the awaited DISFLOW_READY.
+  [[nodiscard]] bool Take(const hal::mavlink::FrameView& frame, BoardAnswer& answer) const;
 
   hal::ByteLink& link_;
   hal::Clock& clock_;
   hal::mavlink::FrameDecoder decoder_;
+  std::array<std::byte, 1024> received_{};
+  std::span<const std::byte> rest_;  ///< Of received_, not decoded yet.
   std::uint32_t sequence_ = 0;
 };
 

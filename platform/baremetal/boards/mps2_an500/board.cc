@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Arm MPS2 with the AN500 image: Cortex-M7 at 25 MHz; qemu-system-arm -M mps2-an500. Depth images
-/// come over UART 0, telemetry goes back over it.
+/// come over UART 0, or from a recording in the PSRAM if there is one; telemetry goes out over UART
+/// 0.
 
 #include "disflow/baremetal/board.h"
 
-#include <array>
-
 #include "../../src/cmsdk_uart.h"
+#include "../../src/recorded_line.h"
 #include "disflow/baremetal/startup.h"
 #include "disflow/baremetal/stream_memory.h"
 #include "disflow/baremetal/tick_clock.h"
@@ -20,13 +20,18 @@ constexpr std::uint32_t kClockHz = 25'000'000;
 constexpr std::uintptr_t kUart0 = 0x40004000;
 constexpr std::uint32_t kBaud = 921'600;
 constexpr std::uintptr_t kTimer0 = 0x40000000;
+constexpr std::uintptr_t kPsram = 0x60000000;
 
 /// The timer counts down.
 std::uint32_t ReadTicks() noexcept { return ~Register(kTimer0 + 4); }
 
 TickClock<ReadTicks, kClockHz> board_clock;
 CmsdkUart uart(kUart0, kClockHz, kBaud);
-hal::depth_stream::StreamSensor depth_source(uart, board_clock, StreamImage(), Budgets());
+RecordedLine recording(kPsram, uart);
+hal::depth_stream::StreamSensor depth_source(recording.given()
+                                                 ? static_cast<hal::ByteLink&>(recording)
+                                                 : uart,
+                                             board_clock, StreamImage(), Budgets());
 
 void OnUartReceive() { uart.OnReceive(); }
 void OnUartTransmit() { uart.OnTransmit(); }
