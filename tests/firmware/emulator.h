@@ -29,7 +29,7 @@ inline constexpr Board kM55{
 struct EmulatorOptions {
   Board board = kM7;
   std::string image{};                 ///< In place of the board's firmware.
-  int icount_shift = -1;             ///< An instruction takes 2^shift ns; -1: real time.
+  int icount_shift = -1;               ///< An instruction takes 2^shift ns; -1: real time.
   std::vector<std::byte> recording{};  ///< Packets to put into the board's memory.
 };
 
