@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 
 namespace disflow::apps {
@@ -12,6 +13,7 @@ constexpr std::int64_t kPaintInterval_ns = 100'000'000;
 constexpr double kDegreesPerRadian = 57.29577951308232;
 // Without automatic line wrap a narrow terminal cuts the line instead of scrolling.
 constexpr const char* kBeginLine = "\r\033[?7l";
+constexpr const char* kClearLine = "\r\033[K";
 constexpr const char* kEndLine = "\033[K\033[?7h";
 
 const char* Colour(TrackingState state) noexcept {
@@ -35,8 +37,20 @@ const char* Colour(TrackingState state) noexcept {
 Console::Console(bool live_line) noexcept : live_line_(live_line && ::isatty(STDERR_FILENO) != 0) {}
 
 void Console::Say(const std::string& message) noexcept {
-  ClearLine();
-  (void)std::fprintf(stderr, "disflow_track: %s\n", message.c_str());
+  const std::lock_guard lock(mutex_);
+  std::array<char, 1024> text;
+  const int length = std::snprintf(text.data(), text.size(), "%sdisflow_track: %s\n",
+                                   line_shown_ ? kClearLine : "", message.c_str());
+  line_shown_ = false;
+  if (length < 0) return;
+  // The reports at the end of a run may be longer; nothing waits for them.
+  if (static_cast<std::size_t>(length) < text.size()) {
+    Write({text.data(), static_cast<std::size_t>(length)});
+    return;
+  }
+  Write("disflow_track: ");
+  Write(message);
+  Write("\n");
 }
 
 void Console::Show(const FrameResult& result, std::int64_t now_ns) noexcept {
@@ -54,27 +68,42 @@ void Console::Show(const FrameResult& result, std::int64_t now_ns) noexcept {
 }
 
 void Console::ClearLine() noexcept {
-  if (line_shown_) (void)std::fputs("\r\033[K", stderr);
+  const std::lock_guard lock(mutex_);
+  if (line_shown_) Write(kClearLine);
   line_shown_ = false;
 }
 
+void Console::Write(std::string_view text) noexcept {
+  if (writer_) {
+    writer_->Push(text);
+    return;
+  }
+  (void)std::fwrite(text.data(), 1, text.size(), stderr);
+  (void)std::fflush(stderr);
+}
+
 void Console::Paint(const FrameResult& result, double seconds) noexcept {
+  const std::lock_guard lock(mutex_);
   const Estimate& estimate = result.estimate;
+  std::array<char, 512> text{};
+  std::size_t size = 0;
+  const auto add = [&text, &size](const char* format, auto... values) {
+    const int length = std::snprintf(text.data() + size, text.size() - size, format, values...);
+    if (length > 0) size = std::min(size + static_cast<std::size_t>(length), text.size() - 1);
+  };
   const auto mean_ms = [this](std::int64_t sum_ns) {
     return static_cast<double>(sum_ns) * 1e-6 / frames_;
   };
-  (void)std::fprintf(
-      stderr, "%sframe %lld  %.1f/s  %s%s\033[0m  quality %d  %.3f m/s  %.1f deg/s  %.2f ms (",
-      kBeginLine, static_cast<long long>(result.frame), frames_ / seconds, Colour(estimate.state),
+  add("%sframe %lld  %.1f/s  %s%s\033[0m  quality %d  %.3f m/s  %.1f deg/s  %.2f ms (", kBeginLine,
+      static_cast<long long>(result.frame), frames_ / seconds, Colour(estimate.state),
       Name(estimate.state), estimate.quality, static_cast<double>(estimate.twist.linear_mps.norm()),
       static_cast<double>(estimate.twist.angular_rps.norm()) * kDegreesPerRadian,
       mean_ms(total_ns_));
   for (std::size_t i = 0; i < stage_ns_.size(); ++i) {
-    (void)std::fprintf(stderr, "%s%s %.2f", i > 0 ? ", " : "", Name(static_cast<Stage>(i)),
-                       mean_ms(stage_ns_[i]));
+    add("%s%s %.2f", i > 0 ? ", " : "", Name(static_cast<Stage>(i)), mean_ms(stage_ns_[i]));
   }
-  (void)std::fprintf(stderr, ")%s", kEndLine);
-  (void)std::fflush(stderr);
+  add(")%s", kEndLine);
+  Write({text.data(), size});
   line_shown_ = true;
 }
 

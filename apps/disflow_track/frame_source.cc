@@ -22,7 +22,7 @@ FrameSource::FrameSource(hal::DepthSensor& sensor, hal::Clock& clock, Rate rate,
     : sensor_(sensor),
       clock_(clock),
       live_(sensor.info().live),
-      paced_(rate == Rate::kRealtime && !live_),
+      paced_(rate != Rate::kMax && !live_),
       max_frames_(max_frames > 0 ? max_frames : std::numeric_limits<std::int64_t>::max()),
       console_(console) {}
 

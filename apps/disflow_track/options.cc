@@ -2,10 +2,14 @@
 #include "options.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdio>
 #include <map>
 
 #include "disflow/hal/mavlink/telemetry.h"
+#include "disflow/posix/mask_stream.h"
 #include "disflow/surface_extractor.h"
 #include "exit_status.h"
 #include "sensor_choice.h"
@@ -33,11 +37,21 @@ constexpr const char* kLinksAndStatus =
 
 const std::map<std::string, ProfileName> kProfiles = {
     {"micro", ProfileName::kMicro}, {"edge", ProfileName::kEdge}, {"dense", ProfileName::kDense}};
-const std::map<std::string, Rate> kRates = {{"max", Rate::kMax}, {"realtime", Rate::kRealtime}};
+const std::map<std::string, Rate> kRates = {
+    {"max", Rate::kMax}, {"realtime", Rate::kRealtime}, {"live", Rate::kLive}};
+const std::map<std::string, hal::mavlink::MavFrame> kWorlds = {
+    {"ned", hal::mavlink::MavFrame::kLocalNed},
+    {"enu", hal::mavlink::MavFrame::kLocalEnu},
+    {"frd", hal::mavlink::MavFrame::kLocalFrd},
+    {"flu", hal::mavlink::MavFrame::kLocalFlu}};
 
 struct SettingSources {
   std::string file;
   std::vector<std::string> assignments;
+  // Short forms of settings.
+  std::vector<int> roi_px;
+  std::vector<float> range_m;
+  std::vector<int> seed_px;
 };
 
 void AddInput(CLI::App& app, Options& options, SettingSources& settings) {
@@ -46,22 +60,84 @@ void AddInput(CLI::App& app, Options& options, SettingSources& settings) {
   app.add_flag("--list-sensors", options.list_sensors,
                "Show all cameras with their formats, sizes and rates, and end");
   app.add_option("--rate", options.rate,
-                 "max: as fast as possible; realtime: at the pace of the capture stamps [max; a "
-                 "live sensor is always realtime]")
+                 "max: as fast as possible; realtime: at the pace of the capture stamps; live: so, "
+                 "and what comes while the tracker is busy is lost [max; a camera is always live]")
       ->transform(CLI::CheckedTransformer(kRates).description(""))
-      ->type_name("max|realtime");
+      ->type_name("max|realtime|live");
   app.add_option("--frames", options.frames, "Stop after this many frames [all]")
       ->check(CLI::Validator(CLI::PositiveNumber).description(""))
       ->type_name("N");
   app.add_option("--profile", options.profile, "Memory and image size, see docs/memory.md [edge]")
       ->transform(CLI::CheckedTransformer(kProfiles).description(""))
       ->type_name("micro|edge|dense");
-  app.add_option("--config", settings.file, "Settings, TOML; --print-config writes one")
+  app.add_option(
+         "--config", settings.file,
+         "Settings, TOML; --print-config writes one. Its section [run] may hold any of these "
+         "options; the command line wins")
       ->type_name("FILE");
   app.add_option("--set", settings.assignments,
                  "One setting, e.g. registration.iterations=10; wins over --config")
       ->type_name("NAME=VALUE")
       ->allow_extra_args(false);
+}
+
+void AddObject(CLI::App& app, Options& options, SettingSources& settings) {
+  app.add_option("--roi", settings.roi_px,
+                 "Only this part of the image is looked at; short for segmenter.roi_*")
+      ->delimiter(',')
+      ->expected(4)
+      ->type_name("X,Y,W,H");
+  app.add_option("--range", settings.range_m,
+                 "Only these distances are looked at; short for segmenter.*_range_m")
+      ->delimiter(',')
+      ->expected(2)
+      ->type_name("NEAR,FAR");
+  app.add_option("--seed", settings.seed_px,
+                 "A pixel on the object in the first frame; short for segmenter.seed_*")
+      ->delimiter(',')
+      ->expected(2)
+      ->type_name("U,V");
+  app.add_option("--mask-stream", options.mask_stream,
+                 "Masks that another process writes: shared memory /NAME or file:PATH, see "
+                 "docs/masks.md")
+      ->type_name("NAME");
+  app.add_option("--mask-age", options.mask_max_age_s,
+                 "A mask this much older than the frame is not used any more [0.1]")
+      ->check(CLI::Range(0.0, 10.0).description(""))
+      ->type_name("SECONDS");
+}
+
+void AddCameraPose(CLI::App& app, CameraPoseOptions& pose) {
+  app.add_option("--camera-pose", pose.system_id,
+                 "The camera is carried by this MAVLink system: its ODOMETRY, received on the "
+                 "links, gives the camera's pose, and the object's pose is sent in the world")
+      ->check(CLI::Range(1, 255).description(""))
+      ->type_name("SYSTEM");
+  app.add_option("--camera-in-body", pose.camera_in_body,
+                 "Where the optical frame sits in the body that the ODOMETRY describes, metres and "
+                 "a quaternion [at its origin, looking along its x axis: 0,0,0,0.5,0.5,0.5,0.5]")
+      ->delimiter(',')
+      ->expected(7)
+      ->type_name("X,Y,Z,QW,QX,QY,QZ");
+  app.add_option("--camera-world", pose.world,
+                 "World frame of that ODOMETRY and of what is sent [frd]")
+      ->transform(CLI::CheckedTransformer(kWorlds).description(""))
+      ->type_name("ned|enu|frd|flu");
+  app.add_flag("--camera-own-clock", pose.own_clock,
+               "That ODOMETRY is stamped on another clock than the depth images; the difference is "
+               "learnt from the times of arrival");
+}
+
+void AddRealtime(CLI::App& app, RealtimeOptions& realtime) {
+  app.add_option("--rt-priority", realtime.priority,
+                 "Run before all ordinary programs: SCHED_FIFO, 1 to 98")
+      ->check(CLI::Range(1, 98).description(""))
+      ->type_name("N");
+  app.add_option("--cpu", realtime.cpus, "Processors of the tracking and of the capture thread")
+      ->delimiter(',')
+      ->expected(1, 2)
+      ->type_name("N[,N]");
+  app.add_flag("--lock-memory", realtime.lock_memory, "Keep all memory in RAM");
 }
 
 void AddOutput(CLI::App& app, Options& options) {
@@ -100,10 +176,92 @@ void AddOutput(CLI::App& app, Options& options) {
                "Print docs/settings.md and end");
 }
 
-void ReadSettings(const SettingSources& settings, Config& config) {
-  if (!settings.file.empty()) LoadSettings(settings.file, config);
+bool MayStandInAFile(const std::string& option) {
+  constexpr std::array kOnlyTyped = {"--config",       "--help",         "--version",
+                                     "--list-sensors", "--print-config", "--print-settings-table"};
+  return std::find(kOnlyTyped.begin(), kOnlyTyped.end(), option) == kOnlyTyped.end();
+}
+
+/// Gives an option of a settings file to the command line's parser, unless it was typed.
+void ApplyRunSetting(CLI::App& app, const RunSetting& setting) {
+  CLI::Option* const option =
+      MayStandInAFile(setting.option) ? app.get_option_no_throw(setting.option) : nullptr;
+  if (option == nullptr) {
+    throw Failure(kWrongUsage, setting.where + "there is no option " + setting.option +
+                                   " that could stand in [run]; see disflow_track --help");
+  }
+  if (option->count() > 0) return;
+  // A flag that is off is one that was not given.
+  const bool is_flag = option->get_expected_max() == 0;
+  if (is_flag && setting.values == std::vector<std::string>{"false"}) return;
+  try {
+    for (const std::string& value : setting.values) option->add_result(value);
+    option->run_callback();
+  } catch (const CLI::Error& error) {
+    throw Failure(kWrongUsage, setting.where + error.what());
+  }
+}
+
+void ApplyShortForms(const SettingSources& settings, Config& config) {
+  const auto apply = [&config](const char* name, const auto& value) {
+    ApplySetting(std::string("segmenter.") + name + "=" + std::to_string(value), config);
+  };
+  if (!settings.roi_px.empty()) {
+    apply("roi_x_px", settings.roi_px[0]);
+    apply("roi_y_px", settings.roi_px[1]);
+    apply("roi_width_px", settings.roi_px[2]);
+    apply("roi_height_px", settings.roi_px[3]);
+  }
+  if (!settings.range_m.empty()) {
+    apply("min_range_m", settings.range_m[0]);
+    apply("max_range_m", settings.range_m[1]);
+  }
+  if (!settings.seed_px.empty()) {
+    apply("seed_u_px", settings.seed_px[0]);
+    apply("seed_v_px", settings.seed_px[1]);
+  }
+}
+
+/// The file, then the short forms, then --set.
+void ReadSettings(CLI::App& app, SettingSources& settings, Config& config) {
+  if (!settings.file.empty()) {
+    for (const RunSetting& setting : LoadSettings(settings.file, config)) {
+      ApplyRunSetting(app, setting);
+    }
+  }
+  ApplyShortForms(settings, config);
   for (const std::string& assignment : settings.assignments) ApplySetting(assignment, config);
   CheckSettings(config);
+}
+
+void CheckCameraPose(const Options& options) {
+  const CameraPoseOptions& pose = options.camera_pose;
+  if (pose.system_id == 0) return;
+  if (options.links.empty()) {
+    throw Failure(kWrongUsage, "--camera-pose needs a --link on which the ODOMETRY comes in");
+  }
+  if (pose.system_id == hal::mavlink::TelemetryOptions{}.system_id) {
+    throw Failure(kWrongUsage, "--camera-pose " + std::to_string(pose.system_id) +
+                                   " is this program's own system id");
+  }
+  if (pose.camera_in_body.empty()) return;
+  double norm = 0.0;
+  bool finite = true;
+  for (std::size_t i = 0; i < pose.camera_in_body.size(); ++i) {
+    const double value = pose.camera_in_body[i];
+    finite = finite && std::isfinite(value);
+    if (i >= 3) norm += value * value;
+  }
+  if (!finite || std::abs(norm - 1.0) > 0.01) {
+    throw Failure(kWrongUsage,
+                  "--camera-in-body: the last four numbers are no unit quaternion (w x y z)");
+  }
+}
+
+void CheckMaskStream(const Options& options) {
+  if (options.mask_stream.empty()) return;
+  const hal::Fault fault = posix::MaskStream::CheckName(options.mask_stream);
+  if (!fault.ok()) throw Failure(kWrongUsage, fault.message);
 }
 
 void CheckResolution(const Options& options) {
@@ -124,6 +282,9 @@ Options ParseCommandLine(int argc, char** argv, bool& exit_now) {
   app.footer("Sensors:\n" + SensorHelp() + kLinksAndStatus);
   app.set_version_flag("--version", "disflow_track " DISFLOW_VERSION " (" DISFLOW_BUILD ")");
   AddInput(app, options, settings);
+  AddObject(app, options, settings);
+  AddCameraPose(app, options.camera_pose);
+  AddRealtime(app, options.realtime);
   AddOutput(app, options);
   try {
     app.parse(argc, argv);
@@ -134,8 +295,10 @@ Options ParseCommandLine(int argc, char** argv, bool& exit_now) {
   } catch (const CLI::ParseError& error) {
     throw Failure(kWrongUsage, std::string(error.what()) + "; see disflow_track --help");
   }
-  ReadSettings(settings, options.config);
+  ReadSettings(app, settings, options.config);
   CheckResolution(options);
+  CheckCameraPose(options);
+  CheckMaskStream(options);
   if (options.sensor.empty() && !options.list_sensors && !options.print_config &&
       !options.print_settings_table) {
     throw Failure(kWrongUsage, "--sensor is required; see disflow_track --help");

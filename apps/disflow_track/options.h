@@ -6,12 +6,24 @@
 #include <vector>
 
 #include "disflow/config.h"
+#include "disflow/hal/mavlink/messages.h"
+#include "realtime_options.h"
 
 namespace disflow::apps {
 
 enum class ProfileName : std::uint8_t { kMicro, kEdge, kDense };
 /// How fast frames are taken; a live sensor sets its own pace.
-enum class Rate : std::uint8_t { kMax, kRealtime };
+/// kLive: as kRealtime, and frames that come while the tracker is busy are lost, as with a camera.
+enum class Rate : std::uint8_t { kMax, kRealtime, kLive };
+
+/// A camera that moves, and where its pose comes from.
+struct CameraPoseOptions {
+  int system_id = 0;  ///< MAVLink system whose ODOMETRY moves the camera; 0 = the camera stands.
+  hal::mavlink::MavFrame world = hal::mavlink::MavFrame::kLocalFrd;
+  bool own_clock = false;
+  std::vector<double>
+      camera_in_body;  ///< x y z qw qx qy qz; empty: looks ahead from the body's origin.
+};
 
 /// The command line, checked.
 struct Options {
@@ -28,6 +40,10 @@ struct Options {
   Rate rate = Rate::kMax;
   std::int64_t frames = 0;  ///< At most; 0 = all.
   std::uint8_t object_index = 0;
+  std::string mask_stream;  ///< Name of shared memory.
+  double mask_max_age_s = 0.1;
+  CameraPoseOptions camera_pose;
+  RealtimeOptions realtime;
   bool headless = false;
   bool timing = true;  ///< false: time columns are written as 0.
 

@@ -7,9 +7,9 @@
 
 namespace disflow::apps {
 
-Outputs::Outputs(const Options& options, Console& console)
+Outputs::Outputs(const Options& options, Console& console, hal::CameraPoseHistory* camera_poses)
     : console_(console),
-      telemetry_(options.links, options.object_index, console),
+      telemetry_(options, camera_poses, console),
       mesh_(options.mesh, options.mesh_picture),
       record_path_(options.record) {
   if (!options.flow.empty()) flow_.emplace(options.flow);

@@ -22,11 +22,14 @@ class Outputs {
  public:
   /// Opens all that was asked for, so that a run never ends with nowhere to put its result.
   /// @throws Failure kWrongUsage, kOutputFailed; files that existed are then unchanged.
-  Outputs(const Options& options, Console& console);
+  /// @param camera_poses Where the links put the camera's poses; null if the camera stands.
+  Outputs(const Options& options, Console& console, hal::CameraPoseHistory* camera_poses);
 
   /// @param frame The input frame; null if it could not be read.
   void Deliver(const FrameResult& result, const DepthFrame* frame, std::int64_t age_ns,
                std::int64_t now_ns);
+  /// Takes what has come in on the links.
+  void Receive(std::int64_t now_ns) noexcept { telemetry_.Receive(now_ns); }
   void KeepAlive(std::int64_t now_ns) noexcept { telemetry_.KeepAlive(now_ns); }
 
   /// Where the flow of a frame goes before WriteFlow(); null if it is not wanted.

@@ -7,10 +7,12 @@
 #include "disflow/distance_flow.h"
 #include "disflow/posix/monotonic_clock.h"
 #include "disflow/tracker.h"
-#include "frame_source.h"
+#include "frame_feed.h"
 #include "outputs.h"
 #include "run_report.h"
 #include "sensor_choice.h"
+#include "service_status.h"
+#include "side_inputs.h"
 #include "stop_signal.h"
 #include "surface_mesh.h"
 
@@ -49,92 +51,139 @@ void WriteFlow(const Tracker<Limits>& tracker, const FrameResult& result, Output
   if (StreamFlow(tracker, result.estimate, *cloud) > 0) outputs.WriteFlow(result);
 }
 
+/// A run from its first frame to its last, with all that it reads and writes.
 template <class Limits>
-void Track(const Options& options, Tracker<Limits>& tracker, hal::DepthSensor& sensor,
-           MonotonicClock& clock, FrameSource& source, Console& console, Outputs& outputs,
-           RunReport& report) {
-  const StageClock stage_clock = options.timing ? StageClock{ReadClock, &clock} : StageClock{};
-  DepthFrame frame;
-  FrameResult result;
-  for (;;) {
-    const FrameSource::Event event = source.Next(frame);
-    if (event == FrameSource::Event::kEnd) return;
-    if (event == FrameSource::Event::kIdle) {
-      outputs.KeepAlive(clock.NowNs());
-      continue;
+class TrackingRun {
+ public:
+  /// @throws Failure for what keeps the run from starting.
+  TrackingRun(const Options& options, Tracker<Limits>& tracker)
+      : options_(options),
+        tracker_(tracker),
+        console_(!options.headless),
+        opener_(options.sensor, sensor_),
+        info_(sensor_.get()->info()),
+        inputs_(options, info_),
+        outputs_(options, console_, inputs_.camera_poses()),
+        source_(*sensor_.get(), clock_, options.rate, options.frames, console_) {}
+
+  [[nodiscard]] ExitStatus Run() {
+    const std::int64_t begin_ns = clock_.NowNs();
+    ExitStatus status = kDone;
+    try {
+      Track();
+    } catch (const Failure& failure) {
+      // What was tracked so far is kept and written.
+      console_.Say(failure.what());
+      status = failure.status();
     }
-    const bool readable = event == FrameSource::Event::kFrame;
+    const double seconds = static_cast<double>(clock_.NowNs() - begin_ns) * 1e-9;
+    service_.Stopping();
+    if (status == kDone) status = JudgeInput();
+    if (outputs_.wants_mesh()) WriteMesh(tracker_.field(), options_, outputs_);
+    const bool complete = outputs_.Finish();
+    console_.Say(report_.Format(seconds));
+    for (const std::string& line : inputs_.Summary()) console_.Say(line);
+    for (const std::string& line : outputs_.written()) console_.Say(line);
+    return status == kDone && !complete ? kOutputFailed : status;
+  }
+
+ private:
+  /// So that opening has its place among the members.
+  struct Opener {
+    Opener(const std::string& uri, host::Sensor& sensor) { OpenSensor(uri, sensor); }
+  };
+
+  void Track() {
+    const bool live = info_.live || options_.rate == Rate::kLive;
+    if (live) console_.WriteInBackground();
+    FrameFeed feed(*sensor_.get(), source_, live, options_.realtime, console_);
+    // The capture thread is there already, or it would inherit what is asked for here.
+    ApplyToTrackingThread(options_.realtime, console_);
+    LockProcessMemory(options_.realtime, console_);
+    service_.Ready();
+    for (;;) {
+      const FrameFeed::Turn turn = feed.Next(frame_);
+      if (turn.event == FrameSource::Event::kEnd) return;
+      if (turn.event == FrameSource::Event::kIdle) {
+        outputs_.KeepAlive(clock_.NowNs());
+      } else {
+        Take(turn);
+      }
+      service_.Turn(result_, turn.source_is_alive, clock_.NowNs());
+    }
+  }
+
+  void Take(const FrameFeed::Turn& turn) {
+    const bool readable = turn.event == FrameSource::Event::kFrame;
+    result_.sensor = turn.counters;
     if (readable) {
-      const std::int64_t begin_ns = clock.NowNs();
-      (void)tracker.Process(frame, result.estimate, stage_clock);  // the estimate carries it
-      result.total_ns = clock.NowNs() - begin_ns;
-      result.totals = tracker.totals();
-      // A camera that was away may have been moved: listeners are told as of a new start.
-      result.estimate.reset_counter =
-          static_cast<std::uint8_t>(result.estimate.reset_counter + sensor.counters().reconnects);
-      WriteFlow(tracker, result, outputs);
+      TrackFrame(turn.counters);
     } else {
       // The last pose stands; the row says that it is not of this frame.
-      result.estimate.status = source.fault_status();
-      result.estimate.stage_ns.fill(0);
-      result.total_ns = 0;
+      result_.estimate.status = turn.fault;
+      result_.estimate.stage_ns.fill(0);
+      result_.total_ns = 0;
     }
-    result.sensor = sensor.counters();
-    const std::int64_t now_ns = clock.NowNs();
-    outputs.Deliver(result, readable ? &frame : nullptr, source.AgeNs(frame.stamp_ns), now_ns);
-    report.Add(result);
-    console.Show(result, now_ns);
-    ++result.frame;
+    const std::int64_t now_ns = clock_.NowNs();
+    outputs_.Deliver(result_, readable ? &frame_ : nullptr, source_.AgeNs(frame_.stamp_ns), now_ns);
+    report_.Add(result_);
+    console_.Show(result_, now_ns);
+    ++result_.frame;
   }
-}
 
-/// Judges the input of a run that came to its end.
-ExitStatus JudgeInput(const FrameSource& source, const RunReport& report, bool live,
-                      Console& console) {
-  if (report.frames() == 0) {
-    if (StopRequested()) return kDone;
-    console.Say("the sensor delivered no frame");
-    return kInputFailed;
+  void TrackFrame(const hal::SensorCounters& counters) {
+    const StageClock stage_clock = options_.timing ? StageClock{ReadClock, &clock_} : StageClock{};
+    const std::int64_t begin_ns = clock_.NowNs();
+    outputs_.Receive(begin_ns);
+    inputs_.Attach(frame_, console_);
+    (void)tracker_.Process(frame_, result_.estimate, stage_clock);  // the estimate carries it
+    result_.total_ns = clock_.NowNs() - begin_ns;
+    result_.totals = tracker_.totals();
+    // A camera that was away may have been moved: listeners are told as of a new start.
+    result_.estimate.reset_counter =
+        static_cast<std::uint8_t>(result_.estimate.reset_counter + counters.reconnects);
+    WriteFlow(tracker_, result_, outputs_);
   }
-  if (report.registered() == 0) {
-    console.Say("no frame could be tracked: " +
-                std::string(Describe(report.most_frequent_fault())));
-    return kInputFailed;
+
+  /// Judges the input of a run that came to its end.
+  [[nodiscard]] ExitStatus JudgeInput() {
+    if (report_.frames() == 0) {
+      if (StopRequested()) return kDone;
+      console_.Say("the sensor delivered no frame");
+      return kInputFailed;
+    }
+    if (report_.registered() == 0) {
+      console_.Say("no frame could be tracked: " +
+                   std::string(Describe(report_.most_frequent_fault())));
+      return kInputFailed;
+    }
+    if (source_.unreadable() > 0 && !info_.live) {
+      console_.Say(std::to_string(source_.unreadable()) + " frames could not be read");
+      return kInputFailed;
+    }
+    return kDone;
   }
-  if (source.unreadable() > 0 && !live) {
-    console.Say(std::to_string(source.unreadable()) + " frames could not be read");
-    return kInputFailed;
-  }
-  return kDone;
-}
+
+  const Options& options_;
+  Tracker<Limits>& tracker_;
+  Console console_;
+  MonotonicClock clock_;
+  host::Sensor sensor_;
+  Opener opener_;
+  hal::SensorInfo info_;
+  SideInputs inputs_;
+  Outputs outputs_;
+  FrameSource source_;
+  ServiceStatus service_;
+  DepthFrame frame_;
+  FrameResult result_;
+  RunReport report_;
+};
 
 template <class Limits>
 ExitStatus RunWith(const Options& options) {
   static Tracker<Limits> tracker(options.config);  // MiBs: not on the stack
-  Console console(!options.headless);
-  MonotonicClock clock;
-  host::Sensor sensor;
-  OpenSensor(options.sensor, sensor);
-  Outputs outputs(options, console);
-  FrameSource source(*sensor.get(), clock, options.rate, options.frames, console);
-  RunReport report;
-
-  const std::int64_t begin_ns = clock.NowNs();
-  ExitStatus status = kDone;
-  try {
-    Track(options, tracker, *sensor.get(), clock, source, console, outputs, report);
-  } catch (const Failure& failure) {
-    // What was tracked so far is kept and written.
-    console.Say(failure.what());
-    status = failure.status();
-  }
-  const double seconds = static_cast<double>(clock.NowNs() - begin_ns) * 1e-9;
-  if (status == kDone) status = JudgeInput(source, report, sensor.get()->info().live, console);
-  if (outputs.wants_mesh()) WriteMesh(tracker.field(), options, outputs);
-  const bool complete = outputs.Finish();
-  console.Say(report.Format(seconds));
-  for (const std::string& line : outputs.written()) console.Say(line);
-  return status == kDone && !complete ? kOutputFailed : status;
+  return TrackingRun<Limits>(options, tracker).Run();
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "disflow/config.h"
 
@@ -12,9 +13,17 @@
 
 namespace disflow::apps {
 
+/// One line of a settings file's section [run]: an option of the command line.
+struct RunSetting {
+  std::string where;   ///< For messages: file and line.
+  std::string option;  ///< "--rate".
+  std::vector<std::string> values;
+};
+
 /// Overwrites the settings that a TOML file mentions.
+/// @return What its section [run] says.
 /// @throws Failure kWrongUsage naming file, line, key, value and allowed range.
-void LoadSettings(const std::string& file, Config& config);
+[[nodiscard]] std::vector<RunSetting> LoadSettings(const std::string& file, Config& config);
 
 /// Overwrites one setting.
 /// @param assignment "registration.iterations=10".

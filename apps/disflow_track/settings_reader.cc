@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <toml++/toml.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <sstream>
@@ -69,9 +70,45 @@ void AssignNode(const std::string& file, const std::string& name, const toml::no
   }
 }
 
+/// @return false if the node is no text, number or truth value.
+bool AppendValue(const toml::node& node, std::vector<std::string>& values) {
+  if (const auto* text = node.as_string()) {
+    values.push_back(text->get());
+  } else if (const auto* truth = node.as_boolean()) {
+    values.emplace_back(truth->get() ? "true" : "false");
+  } else if (const auto* integer = node.as_integer()) {
+    values.push_back(std::to_string(integer->get()));
+  } else if (const auto* floating = node.as_floating_point()) {
+    values.push_back(Compact(floating->get()));
+  } else {
+    return false;
+  }
+  return true;
+}
+
+RunSetting ReadRunSetting(const std::string& file, std::string_view key, const toml::node& node) {
+  RunSetting setting;
+  setting.where = file + ":" + std::to_string(node.source().begin.line) + ": ";
+  setting.option = "--" + std::string(key);
+  std::replace(setting.option.begin(), setting.option.end(), '_', '-');
+  bool usable = true;
+  if (const toml::array* const array = node.as_array()) {
+    for (const toml::node& element : *array)
+      usable = usable && AppendValue(element, setting.values);
+  } else {
+    usable = AppendValue(node, setting.values);
+  }
+  if (!usable) {
+    Refuse(setting.where,
+           std::string(key) + ": a text, a number, true, false or a list of these is needed");
+  }
+  return setting;
+}
+
 }  // namespace
 
-void LoadSettings(const std::string& file, Config& config) {
+std::vector<RunSetting> LoadSettings(const std::string& file, Config& config) {
+  std::vector<RunSetting> run;
   toml::table root;
   try {
     root = toml::parse_file(file);
@@ -87,9 +124,14 @@ void LoadSettings(const std::string& file, Config& config) {
       continue;
     }
     for (const auto& [key, value] : *table) {
+      if (section == "run") {
+        run.push_back(ReadRunSetting(file, key.str(), value));
+        continue;
+      }
       AssignNode(file, std::string(section.str()) + "." + std::string(key.str()), value, config);
     }
   }
+  return run;
 }
 
 void ApplySetting(std::string_view assignment, Config& config) {

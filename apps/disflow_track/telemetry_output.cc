@@ -11,19 +11,33 @@ using hal::Fault;
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
-hal::mavlink::TelemetryOptions EncoderOptions(std::uint8_t object_index) {
-  hal::mavlink::TelemetryOptions options;
-  options.object_index = object_index;
-  return options;
+constexpr int kPiecesPerTurn = 8;
+constexpr std::size_t kPiece_bytes = 2048;
+
+hal::mavlink::TelemetryOptions EncoderOptions(const Options& options) {
+  hal::mavlink::TelemetryOptions encoder;
+  encoder.object_index = options.object_index;
+  if (options.camera_pose.system_id != 0) encoder.pose_frame = options.camera_pose.world;
+  return encoder;
+}
+
+hal::mavlink::CameraPoseSource PoseSource(const CameraPoseOptions& options) {
+  return {.system_id = static_cast<std::uint8_t>(options.system_id),
+          .world = options.world,
+          .own_clock = options.own_clock};
 }
 
 }  // namespace
 
-TelemetryOutput::TelemetryOutput(const std::vector<std::string>& uris, std::uint8_t object_index,
+TelemetryOutput::TelemetryOutput(const Options& options, hal::CameraPoseHistory* camera_poses,
                                  Console& console)
-    : console_(console), encoder_(EncoderOptions(object_index)) {
-  for (const std::string& uri : uris) {
-    const Fault fault = lines_.emplace_back().link.Configure(uri);
+    : console_(console), encoder_(EncoderOptions(options)) {
+  for (const std::string& uri : options.links) {
+    Line& line = lines_.emplace_back();
+    if (camera_poses != nullptr) {
+      line.camera_pose.emplace(PoseSource(options.camera_pose), *camera_poses);
+    }
+    const Fault fault = line.link.Configure(uri);
     if (!fault.ok()) throw Failure(kWrongUsage, fault.message);
   }
   for (Line& line : lines_) {
@@ -54,8 +68,30 @@ void TelemetryOutput::Send(const FrameResult& result, std::int64_t age_ns,
   Broadcast(encoder_.EncodeStatus(estimate, context, buffer_));
 }
 
+void TelemetryOutput::Receive(std::int64_t now_ns) noexcept {
+  for (Line& line : lines_) {
+    if (line.camera_pose && !line.lost) ReceiveOn(line, now_ns);
+  }
+}
+
+void TelemetryOutput::ReceiveOn(Line& line, std::int64_t now_ns) noexcept {
+  std::array<std::byte, kPiece_bytes> piece;
+  for (int i = 0; i < kPiecesPerTurn; ++i) {
+    const Expected<std::size_t> received = line.link.get()->Receive(piece);
+    // A device that is gone shows when something is sent, and that is soon.
+    if (!received.ok() || received.value == 0) break;
+    line.camera_pose->Receive(std::span(piece).first(received.value), now_ns);
+  }
+  if (line.camera_pose->refused_frame() == 0 || line.frame_refusal_said) return;
+  line.frame_refusal_said = true;
+  console_.Say(std::string(line.link.get()->name()) + ": ODOMETRY with frame_id " +
+               std::to_string(line.camera_pose->refused_frame()) +
+               " is not in the frame that --camera-world names and is left out");
+}
+
 void TelemetryOutput::KeepAlive(std::int64_t now_ns) noexcept {
   if (lines_.empty()) return;
+  Receive(now_ns);
   Reopen(now_ns);
   if (!heartbeat_sent_ || now_ns - heartbeat_ns_ >= kSecond_ns) SendHeartbeat(now_ns);
 }

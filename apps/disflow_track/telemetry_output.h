@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "console.h"
+#include "disflow/hal/mavlink/camera_pose_input.h"
 #include "disflow/hal/mavlink/telemetry.h"
 #include "disflow/posix/link.h"
 #include "frame_result.h"
+#include "options.h"
 
 namespace disflow::apps {
 
@@ -22,8 +26,8 @@ class TelemetryOutput {
   /// Opens the links.
   /// @throws Failure kWrongUsage for an address that cannot be parsed, kOutputFailed for a link
   /// that cannot be opened.
-  TelemetryOutput(const std::vector<std::string>& uris, std::uint8_t object_index,
-                  Console& console);
+  /// @param camera_poses Where the carrier's ODOMETRY goes; null if nothing is received.
+  TelemetryOutput(const Options& options, hal::CameraPoseHistory* camera_poses, Console& console);
   TelemetryOutput(const TelemetryOutput&) = delete;
   TelemetryOutput& operator=(const TelemetryOutput&) = delete;
   ~TelemetryOutput();
@@ -31,6 +35,8 @@ class TelemetryOutput {
   /// ODOMETRY and DISFLOW_STATUS of a frame, and HEARTBEAT if one is due.
   /// @param age_ns From capture to now; negative = unknown.
   void Send(const FrameResult& result, std::int64_t age_ns, std::int64_t now_ns) noexcept;
+  /// Takes what has come in, a bounded number of bytes.
+  void Receive(std::int64_t now_ns) noexcept;
   /// HEARTBEAT if one is due although no frame comes.
   void KeepAlive(std::int64_t now_ns) noexcept;
 
@@ -44,10 +50,13 @@ class TelemetryOutput {
     posix::Link link;
     bool lost = false;
     std::int64_t retry_ns = 0;
+    std::optional<hal::mavlink::CameraPoseInput> camera_pose;
+    bool frame_refusal_said = false;
   };
 
   void SendHeartbeat(std::int64_t now_ns) noexcept;
   void Broadcast(Expected<std::size_t> size) noexcept;
+  void ReceiveOn(Line& line, std::int64_t now_ns) noexcept;
   void SendOn(Line& line, std::span<const std::byte> message) noexcept;
   void Reopen(std::int64_t now_ns) noexcept;
 

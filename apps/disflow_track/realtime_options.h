@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "console.h"
+
+namespace disflow::apps {
+
+/// What is asked of the kernel; see docs/deploy.md.
+struct RealtimeOptions {
+  int priority =
+      0;  ///< SCHED_FIFO of the tracking thread, the capture thread has one more; 0 = none.
+  std::vector<int> cpus;  ///< Of the tracking and of the capture thread; one or two, or none.
+  bool lock_memory = false;
+};
+
+/// Asks for what was wanted, in the thread that calls it. What is refused is said; the run goes on.
+void ApplyToTrackingThread(const RealtimeOptions& options, Console& console);
+void ApplyToCaptureThread(const RealtimeOptions& options, Console& console);
+
+/// Locks the memory of the whole process, if that is wanted. To be called when all of it is there.
+void LockProcessMemory(const RealtimeOptions& options, Console& console);
+
+}  // namespace disflow::apps

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "console.h"
+#include "disflow/hal/camera_pose_history.h"
+#include "disflow/hal/depth_sensor.h"
+#include "disflow/posix/mask_stream.h"
+#include "options.h"
+
+namespace disflow::apps {
+
+/// What other processes and machines say about a depth image: masks and the camera's pose.
+class SideInputs {
+ public:
+  SideInputs(const Options& options, const hal::SensorInfo& sensor);
+
+  /// Where the links put the camera's poses; null if nobody moves the camera.
+  [[nodiscard]] hal::CameraPoseHistory* camera_poses() noexcept {
+    return poses_ ? &*poses_ : nullptr;
+  }
+  /// Adds to the frame what belongs to it. What is missing is counted, and the frame goes without.
+  void Attach(DepthFrame& frame, Console& console) noexcept;
+
+  /// @return A line per input for people.
+  [[nodiscard]] std::vector<std::string> Summary() const;
+
+ private:
+  std::optional<posix::MaskStream> masks_;
+  Status mask_status_ = Status::kOk;  ///< What was said last.
+  std::optional<hal::CameraPoseHistory> poses_;
+};
+
+}  // namespace disflow::apps

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "disflow/hal/camera_pose_history.h"
+#include "disflow/hal/mavlink/frame_decoder.h"
+#include "disflow/hal/mavlink/messages.h"
+
+namespace disflow::hal::mavlink {
+
+/// Whose ODOMETRY moves the camera, and on which clock it is stamped.
+struct CameraPoseSource {
+  std::uint8_t system_id = 1;
+  MavFrame world = MavFrame::kLocalFrd;  ///< ODOMETRY in another frame is refused.
+  /// false: time_usec is on the clock of the depth images' stamps. true: on a clock of the sender's
+  /// own; its offset is learnt from when messages arrive, the quickest being taken for immediate.
+  bool own_clock = false;
+};
+
+/// What was met besides usable poses; saturating.
+struct CameraPoseInputCounters {
+  std::uint32_t other_system = 0;  ///< ODOMETRY of somebody else.
+  std::uint32_t other_frame = 0;   ///< In another world frame than the wanted one.
+  std::uint32_t failed = 0;        ///< The sender says that its estimate failed.
+};
+
+/// Reads the bytes of one link and puts the carrier's ODOMETRY into a history.
+class CameraPoseInput {
+ public:
+  CameraPoseInput(const CameraPoseSource& source, CameraPoseHistory& history) noexcept
+      : source_(source), history_(&history) {}
+
+  /// @param now_ns Now, on the clock of the depth images.
+  void Receive(std::span<const std::byte> bytes, std::int64_t now_ns) noexcept;
+
+  [[nodiscard]] const CameraPoseInputCounters& counters() const noexcept { return counters_; }
+  /// frame_id of the last ODOMETRY that was refused for it; 0 = none was.
+  [[nodiscard]] std::uint8_t refused_frame() const noexcept { return refused_frame_; }
+
+ private:
+  void Take(const FrameView& frame, std::int64_t now_ns) noexcept;
+  [[nodiscard]] StampNs ToCaptureClock(std::uint64_t time_usec, std::int64_t now_ns) noexcept;
+
+  CameraPoseSource source_;
+  CameraPoseHistory* history_;
+  FrameDecoder decoder_;
+  CameraPoseInputCounters counters_;
+  std::uint8_t refused_frame_ = 0;
+  bool has_offset_ = false;
+  std::int64_t offset_ns_ = 0;
+  std::int64_t offset_at_ns_ = 0;
+};
+
+}  // namespace disflow::hal::mavlink

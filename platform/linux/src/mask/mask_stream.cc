@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "disflow/posix/mask_stream.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+
+#include <array>
+#include <atomic>
+#include <cstring>
+
+#include "disflow/hal/saturating.h"
+
+namespace disflow::posix {
+namespace {
+
+constexpr std::uint32_t kMaxSide_px = 16384;
+constexpr int kAttempts = 3;
+constexpr std::string_view kFilePrefix = "file:";
+constexpr std::string_view kSharedMemory = "/dev/shm";
+
+template <class T>
+T ReadLittle(std::span<const std::byte> bytes, std::size_t offset) noexcept {
+  std::uint64_t value = 0;
+  for (std::size_t i = 0; i < sizeof(T); ++i) {
+    value |= std::uint64_t{std::to_integer<std::uint8_t>(bytes[offset + i])} << (8 * i);
+  }
+  return static_cast<T>(value);
+}
+
+bool ReadFully(int fd, void* out, std::size_t size, std::size_t offset) noexcept {
+  auto* bytes = static_cast<std::byte*>(out);
+  while (size > 0) {
+    const ssize_t got =
+        RetryOnSignal([&] { return ::pread(fd, bytes, size, static_cast<off_t>(offset)); });
+    if (got <= 0) return false;
+    bytes += got;
+    offset += static_cast<std::size_t>(got);
+    size -= static_cast<std::size_t>(got);
+  }
+  return true;
+}
+
+std::string PathOf(const std::string& name) {
+  return name.starts_with(kFilePrefix) ? name.substr(kFilePrefix.size())
+                                       : std::string(kSharedMemory) + name;
+}
+
+}  // namespace
+
+bool MaskHeader::Parse(std::span<const std::byte, kSize> bytes) noexcept {
+  if (std::memcmp(bytes.data(), kMagic, 8) != 0) return false;
+  sequence = ReadLittle<std::uint64_t>(bytes, 8);
+  stamp_ns = ReadLittle<std::int64_t>(bytes, 16);
+  width_px = ReadLittle<std::uint32_t>(bytes, 24);
+  height_px = ReadLittle<std::uint32_t>(bytes, 28);
+  stride_bytes = ReadLittle<std::uint32_t>(bytes, 32);
+  return width_px > 0 && width_px <= kMaxSide_px && height_px > 0 && height_px <= kMaxSide_px &&
+         stride_bytes >= width_px && stride_bytes <= 4 * kMaxSide_px;
+}
+
+hal::Fault MaskStream::CheckName(const std::string& name) noexcept {
+  const bool is_file = name.starts_with(kFilePrefix) && name.size() > kFilePrefix.size();
+  const bool is_shm = name.size() > 1 && name[0] == '/' && name.find('/', 1) == std::string::npos;
+  if (is_file || is_shm) return {};
+  return hal::MakeFault(Status::kInvalidUri,
+                        "mask stream '%s': '/NAME' of a shared memory object or 'file:PATH' is "
+                        "needed, see docs/masks.md",
+                        name.c_str());
+}
+
+MaskStream::MaskStream(const std::string& name, int width_px, int height_px,
+                       std::int64_t max_age_ns)
+    : name_(name),
+      path_(PathOf(name)),
+      width_px_(width_px),
+      height_px_(height_px),
+      max_age_ns_(max_age_ns),
+      incoming_(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px)),
+      mask_(incoming_.size()) {}
+
+Status MaskStream::Attach(DepthFrame& frame) noexcept {
+  frame.mask = {};
+  const Reading reading = ReadNewest();
+  switch (reading) {
+    case Reading::kDone:
+    case Reading::kUnchanged:
+      break;
+    case Reading::kMissing:
+      hal::AddSaturating(counters_.missing);
+      return Status::kNotFound;
+    case Reading::kWrongSize:
+      hal::AddSaturating(counters_.wrong_size);
+      return Status::kMaskSizeMismatch;
+    case Reading::kCorrupt:
+      hal::AddSaturating(counters_.corrupt);
+      return Status::kCorrupt;
+    case Reading::kTorn:
+      hal::AddSaturating(counters_.torn);
+      return Status::kWouldBlock;
+  }
+  if (frame.depth.width_px != width_px_ || frame.depth.height_px != height_px_) {
+    hal::AddSaturating(counters_.wrong_size);
+    return Status::kMaskSizeMismatch;
+  }
+  // Stamps may be anything: compared without overflow.
+  std::int64_t apart_ns = 0;
+  const bool overflow = __builtin_sub_overflow(frame.stamp_ns, stamp_ns_, &apart_ns);
+  if (overflow || apart_ns > max_age_ns_ || apart_ns < -max_age_ns_) {
+    hal::AddSaturating(counters_.late);
+    return Status::kTimeout;
+  }
+  hal::AddSaturating(counters_.used);
+  frame.mask = {mask_.data(), width_px_, height_px_, width_px_};
+  return Status::kOk;
+}
+
+MaskStream::Reading MaskStream::ReadNewest() noexcept {
+  OpenAgainIfGone();
+  if (!file_.is_open()) return Reading::kMissing;
+  Reading reading = Reading::kTorn;
+  for (int i = 0; i < kAttempts && reading == Reading::kTorn; ++i) reading = ReadOnce();
+  if (reading != Reading::kTorn || sequence_ == 0) return reading;
+  hal::AddSaturating(counters_.torn);
+  // The one before is whole; whether it is still of use its stamp decides.
+  return Reading::kUnchanged;
+}
+
+MaskStream::Reading MaskStream::ReadOnce() noexcept {
+  MaskHeader before;
+  Reading verdict = Reading::kDone;
+  if (!ReadHeader(before, verdict)) return verdict;
+  if (before.sequence == 0) return Reading::kMissing;
+  if (before.sequence % 2 != 0) return Reading::kTorn;
+  if (before.sequence == sequence_) return Reading::kUnchanged;
+  if (before.width_px != static_cast<std::uint32_t>(width_px_) ||
+      before.height_px != static_cast<std::uint32_t>(height_px_)) {
+    return Reading::kWrongSize;
+  }
+  if (!ReadPixels(before.stride_bytes)) return Reading::kCorrupt;
+  std::atomic_thread_fence(std::memory_order_acquire);
+  MaskHeader after;
+  if (!ReadHeader(after, verdict)) return verdict;
+  if (after.sequence != before.sequence) return Reading::kTorn;
+  incoming_.swap(mask_);
+  sequence_ = before.sequence;
+  stamp_ns_ = before.stamp_ns;
+  return Reading::kDone;
+}
+
+bool MaskStream::ReadPixels(std::size_t stride_bytes) noexcept {
+  const auto width = static_cast<std::size_t>(width_px_);
+  if (stride_bytes == width) {
+    return ReadFully(file_.get(), incoming_.data(), incoming_.size(), MaskHeader::kSize);
+  }
+  for (std::size_t v = 0; v < static_cast<std::size_t>(height_px_); ++v) {
+    if (!ReadFully(file_.get(), incoming_.data() + v * width, width,
+                   MaskHeader::kSize + v * stride_bytes)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool MaskStream::ReadHeader(MaskHeader& header, Reading& verdict) noexcept {
+  std::array<std::byte, MaskHeader::kSize> bytes{};
+  if (ReadFully(file_.get(), bytes.data(), bytes.size(), 0) && header.Parse(bytes)) return true;
+  verdict = Reading::kCorrupt;
+  return false;
+}
+
+void MaskStream::OpenAgainIfGone() noexcept {
+  // A writer that was started anew may have made a new object of the same name.
+  struct stat status {};
+  if (file_.is_open() && ::fstat(file_.get(), &status) == 0 && status.st_nlink > 0) return;
+  file_ = FileDescriptor(::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  sequence_ = 0;
+}
+
+}  // namespace disflow::posix

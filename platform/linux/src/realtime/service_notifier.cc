@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "disflow/posix/service_notifier.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstddef>
+#include <cstdlib>
+#include <cstring>
+
+namespace disflow::posix {
+namespace {
+
+constexpr std::size_t kMaxStatus = 200;
+constexpr std::int64_t kBeatsPerPeriod = 4;
+
+std::string_view Environment(const char* name) noexcept {
+  const char* const value = std::getenv(name);
+  return value != nullptr ? std::string_view(value) : std::string_view();
+}
+
+std::int64_t Number(std::string_view text) noexcept {
+  std::int64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc{} && end == text.data() + text.size() && value > 0 ? value : 0;
+}
+
+}  // namespace
+
+ServiceNotifier::ServiceNotifier() noexcept {
+  const std::string_view path = Environment("NOTIFY_SOCKET");
+  // A path, or a name in the abstract space, which is written with an '@'.
+  if (path.size() < 2 || (path[0] != '/' && path[0] != '@')) return;
+  if (path.size() >= sizeof(peer_.sun_path)) return;
+  peer_.sun_family = AF_UNIX;
+  std::memcpy(peer_.sun_path, path.data(), path.size());
+  if (path[0] == '@') peer_.sun_path[0] = '\0';
+  peer_size_ = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + path.size());
+  socket_ = FileDescriptor(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+  const std::int64_t pid = Number(Environment("WATCHDOG_PID"));
+  if (pid == 0 || pid == ::getpid()) {
+    constexpr std::int64_t kLongest_us = 86'400'000'000;
+    watchdog_ns_ = std::min(Number(Environment("WATCHDOG_USEC")), kLongest_us) * 1000;
+  }
+}
+
+void ServiceNotifier::Status(std::string_view text) noexcept {
+  constexpr std::string_view kKey = "STATUS=";
+  std::array<char, kKey.size() + kMaxStatus> message{};
+  const std::size_t length = std::min(text.size(), kMaxStatus);
+  std::memcpy(message.data(), kKey.data(), kKey.size());
+  std::memcpy(message.data() + kKey.size(), text.data(), length);
+  Send({message.data(), kKey.size() + length});
+}
+
+void ServiceNotifier::Beat(std::int64_t now_ns) noexcept {
+  if (watchdog_ns_ == 0) return;
+  if (beaten_ && now_ns - beat_ns_ < watchdog_ns_ / kBeatsPerPeriod) return;
+  beaten_ = true;
+  beat_ns_ = now_ns;
+  Send("WATCHDOG=1");
+}
+
+void ServiceNotifier::Send(std::string_view message) noexcept {
+  if (!active()) return;
+  // A manager that does not read loses the message; the next one says the same again.
+  (void)::sendto(socket_.get(), message.data(), message.size(), MSG_NOSIGNAL,
+                 reinterpret_cast<const sockaddr*>(&peer_), peer_size_);
+}
+
+}  // namespace disflow::posix
