@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "disflow/hal/camera_pose_history.h"
+#include "disflow/hal/mavlink/camera_pose_input.h"
+
+namespace disflow::hal {
+namespace {
+
+using BodyPose = Transform<World, Body, double>;
+using Vec3d = Mat<double, 3>;
+
+constexpr std::int64_t kMs = 1'000'000;
+constexpr StampNs kStart = 86'400'000'000'000 * 300;  // after 300 days
+
+/// A body on a screw motion: interpolation on SE(3) is exact.
+BodyPose ScrewAt(double seconds) {
+  Mat<double, 6> twist;
+  twist << 0.3, -0.2, 0.1, 0.5, 1.0, -0.8;
+  return BodyPose(Mat<double, 3, 3>(ExpSo3(Vec3d(0.1, 0.2, 0.3))), Vec3d(1.0, 2.0, 3.0)) *
+         Transform<Body, Body, double>::Exp(seconds * twist);
+}
+
+CameraPoseHistory::Settings WithOffset() {
+  CameraPoseHistory::Settings settings;
+  settings.T_bc = {Mat3(ExpSo3(Vec3(0.0F, 0.5F, 0.0F))), Vec3(0.1F, 0.0F, -0.05F)};
+  return settings;
+}
+
+void Fill(CameraPoseHistory& history, int count, std::int64_t step_ns) {
+  for (int i = 0; i < count; ++i) {
+    EXPECT_EQ(
+        history.Add(kStart + i * step_ns, ScrewAt(static_cast<double>(i * step_ns) * 1e-9), 0),
+        Status::kOk);
+  }
+}
+
+double Apart(const Transform<World, Camera>& a, const BodyPose& T_wb,
+             const Transform<Body, Camera>& T_bc) {
+  return (a.Cast<double>().Inverse() * (T_wb * T_bc.Cast<double>())).Log().norm();
+}
+
+TEST(CameraPoses, BetweenTwoPoses_TheScrewMotionIsExact) {
+  CameraPoseHistory history(WithOffset());
+  Fill(history, 20, 50 * kMs);
+  Transform<World, Camera> T_wc;
+  for (std::int64_t at = 0; at <= 950 * kMs; at += 7 * kMs) {
+    ASSERT_EQ(history.At(kStart + at, T_wc), Status::kOk) << at;
+    EXPECT_LT(Apart(T_wc, ScrewAt(static_cast<double>(at) * 1e-9), WithOffset().T_bc), 2e-6);
+  }
+  EXPECT_EQ(history.counters().continued, 0U);
+}
+
+TEST(CameraPoses, ALittleBeyondTheNewest_TheMotionGoesOn) {
+  CameraPoseHistory history(WithOffset());
+  Fill(history, 5, 20 * kMs);
+  Transform<World, Camera> T_wc;
+  ASSERT_EQ(history.At(kStart + 120 * kMs, T_wc), Status::kOk);
+  EXPECT_LT(Apart(T_wc, ScrewAt(0.12), WithOffset().T_bc), 2e-6);
+  EXPECT_EQ(history.counters().continued, 1U);
+  EXPECT_EQ(history.At(kStart + 150 * kMs, T_wc), Status::kNotFound);
+  EXPECT_EQ(history.counters().unmatched, 1U);
+}
+
+TEST(CameraPoses, GapBeforeTheFirstAndEmptyHistory_HaveNoPose) {
+  CameraPoseHistory history(WithOffset());
+  Transform<World, Camera> T_wc;
+  EXPECT_EQ(history.At(kStart, T_wc), Status::kNotFound);
+  EXPECT_EQ(history.Add(kStart, ScrewAt(0.0), 0), Status::kOk);
+  EXPECT_EQ(history.At(kStart, T_wc), Status::kNotFound) << "one pose is no motion";
+  EXPECT_EQ(history.Add(kStart + 400 * kMs, ScrewAt(0.4), 0), Status::kOk);
+  EXPECT_EQ(history.At(kStart + 200 * kMs, T_wc), Status::kNotFound) << "in a gap";
+  EXPECT_EQ(history.At(kStart - 1, T_wc), Status::kNotFound);
+  EXPECT_EQ(history.At(std::numeric_limits<std::int64_t>::min(), T_wc), Status::kNotFound);
+  EXPECT_EQ(history.At(std::numeric_limits<std::int64_t>::max(), T_wc), Status::kNotFound);
+}
+
+TEST(CameraPoses, MoreThanTheCapacity_KeepsTheNewest) {
+  CameraPoseHistory history(WithOffset());
+  const int count = static_cast<int>(CameraPoseHistory::kCapacity) + 100;
+  Fill(history, count, 5 * kMs);
+  Transform<World, Camera> T_wc;
+  EXPECT_EQ(history.At(kStart + 99 * 5 * kMs, T_wc), Status::kNotFound);
+  for (int i = 100; i < count; ++i) {
+    ASSERT_EQ(history.At(kStart + i * 5 * kMs, T_wc), Status::kOk) << i;
+    EXPECT_LT(Apart(T_wc, ScrewAt(i * 0.005), WithOffset().T_bc), 3e-6);
+  }
+}
+
+TEST(CameraPoses, JumpOfTheSender_IsNeverInterpolatedAcross) {
+  CameraPoseHistory history(WithOffset());
+  Fill(history, 3, 20 * kMs);
+  EXPECT_EQ(history.Add(kStart + 60 * kMs, ScrewAt(5.0), 1), Status::kOk);
+  Transform<World, Camera> T_wc;
+  EXPECT_EQ(history.At(kStart + 50 * kMs, T_wc), Status::kNotFound);
+  EXPECT_EQ(history.counters().jumps, 1U);
+}
+
+TEST(CameraPoses, WhatIsNoPoseOrNotNewer_IsRefused) {
+  CameraPoseHistory history(WithOffset());
+  Fill(history, 2, 20 * kMs);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(
+      history.Add(kStart + 40 * kMs, BodyPose(ScrewAt(0.0).rotation(), Vec3d(nan, 0.0, 0.0)), 0),
+      Status::kInvalidTransform);
+  EXPECT_EQ(
+      history.Add(kStart + 40 * kMs,
+                  BodyPose(Mat<double, 3, 3>(2.0 * ScrewAt(0.0).rotation()), Vec3d::Zero()), 0),
+      Status::kInvalidTransform);
+  EXPECT_EQ(history.Add(kStart + 20 * kMs, ScrewAt(0.0), 0), Status::kStampNotIncreasing);
+  EXPECT_EQ(history.Add(kStart, ScrewAt(0.0), 0), Status::kStampNotIncreasing);
+  EXPECT_EQ(history.counters().refused, 4U);
+  EXPECT_EQ(history.counters().poses, 2U);
+}
+
+/// One ODOMETRY as the carrier sends it.
+std::vector<std::byte> Message(double seconds, std::uint8_t system, mavlink::MavFrame frame,
+                               std::uint64_t time_usec, std::int8_t quality = 50) {
+  const BodyPose pose = ScrewAt(seconds);
+  mavlink::Odometry odometry;
+  odometry.time_usec = time_usec;
+  odometry.x = static_cast<float>(pose.translation().x());
+  odometry.y = static_cast<float>(pose.translation().y());
+  odometry.z = static_cast<float>(pose.translation().z());
+  const auto q = pose.rotation_quaternion();
+  odometry.q = {static_cast<float>(q.w()), static_cast<float>(q.x()), static_cast<float>(q.y()),
+                static_cast<float>(q.z())};
+  odometry.frame_id = static_cast<std::uint8_t>(frame);
+  odometry.child_frame_id = 12;
+  odometry.quality = quality;
+  std::array<std::byte, mavlink::kMaxFrameSize> buffer{};
+  const auto size = mavlink::EncodeFrame(
+      odometry, {.sequence = 0, .system_id = system, .component_id = 1}, buffer);
+  return {buffer.begin(), buffer.begin() + static_cast<std::ptrdiff_t>(size.value)};
+}
+
+TEST(CameraPoseInput, OdometryOfTheCarrier_BecomesTheCamerasPose) {
+  CameraPoseHistory history(WithOffset());
+  mavlink::CameraPoseInput input({.system_id = 1}, history);
+  for (int i = 0; i < 10; ++i) {
+    const auto bytes = Message(i * 0.02, 1, mavlink::MavFrame::kLocalFrd,
+                               1'000'000 + static_cast<std::uint64_t>(i) * 20'000);
+    // In pieces, as a serial line delivers them.
+    input.Receive(std::span(bytes).first(40), 0);
+    input.Receive(std::span(bytes).subspan(40), 0);
+  }
+  Transform<World, Camera> T_wc;
+  ASSERT_EQ(history.At(1'000 * kMs + 70 * kMs, T_wc), Status::kOk);
+  EXPECT_LT(Apart(T_wc, ScrewAt(0.07), WithOffset().T_bc), 1e-5);
+}
+
+TEST(CameraPoseInput, OthersOdometry_IsCountedAndLeftOut) {
+  CameraPoseHistory history(WithOffset());
+  mavlink::CameraPoseInput input({.system_id = 1}, history);
+  input.Receive(Message(0.0, 2, mavlink::MavFrame::kLocalFrd, 1), 0);
+  input.Receive(Message(0.0, 1, mavlink::MavFrame::kLocalEnu, 2), 0);
+  input.Receive(Message(0.0, 1, mavlink::MavFrame::kLocalFrd, 3, -1), 0);
+  EXPECT_EQ(input.counters().other_system, 1U);
+  EXPECT_EQ(input.counters().other_frame, 1U);
+  EXPECT_EQ(input.counters().failed, 1U);
+  EXPECT_EQ(input.refused_frame(), 4);
+  EXPECT_EQ(history.counters().poses, 0U);
+}
+
+TEST(CameraPoseInput, SendersOwnClock_IsLearntFromTheQuickestMessages) {
+  CameraPoseHistory history(WithOffset());
+  mavlink::CameraPoseInput input({.system_id = 1, .own_clock = true}, history);
+  constexpr std::int64_t kOffset_ns = 5'000'000 * kMs;
+  for (int i = 0; i < 50; ++i) {
+    const std::int64_t latency_ns = (2 + (i * 7) % 11) * kMs;
+    const auto bytes =
+        Message(i * 0.02, 1, mavlink::MavFrame::kLocalFrd, static_cast<std::uint64_t>(i) * 20'000);
+    input.Receive(bytes, i * 20 * kMs + kOffset_ns + latency_ns);
+  }
+  Transform<World, Camera> T_wc;
+  ASSERT_EQ(history.At(kOffset_ns + 900 * kMs + 2 * kMs, T_wc), Status::kOk);
+  EXPECT_LT(Apart(T_wc, ScrewAt(0.9), WithOffset().T_bc), 1e-3);
+}
+
+TEST(CameraPoseInput, StampsAtTheEndOfTime_DoNoHarm) {
+  CameraPoseHistory history(WithOffset());
+  mavlink::CameraPoseInput input({.system_id = 1, .own_clock = true}, history);
+  mavlink::CameraPoseInput same({.system_id = 1}, history);
+  for (const std::uint64_t stamp :
+       {std::uint64_t{0}, std::numeric_limits<std::uint64_t>::max(), std::uint64_t{1} << 63U}) {
+    input.Receive(Message(0.0, 1, mavlink::MavFrame::kLocalFrd, stamp), 5);
+    same.Receive(Message(0.0, 1, mavlink::MavFrame::kLocalFrd, stamp), 5);
+  }
+  Transform<World, Camera> T_wc;
+  (void)history.At(5, T_wc);
+}
+
+}  // namespace
+}  // namespace disflow::hal
