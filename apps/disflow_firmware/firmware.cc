@@ -57,11 +57,9 @@ void Firmware::Track(const DepthFrame& frame) noexcept {
 
 void Firmware::SendEstimate(const Estimate& estimate) noexcept {
   Send(encoder_.EncodeOdometry(estimate, message_));
-  const hal::SensorCounters sensor = source_.counters();
   // Stamps are the sender's: how old a frame is cannot be told here.
-  Send(encoder_.EncodeStatus(
-      estimate, {.dropped_frames = sensor.dropped + sensor.corrupt, .totals = tracker_.totals()},
-      message_));
+  Send(encoder_.EncodeStatus(estimate, {.sensor = source_.counters(), .totals = tracker_.totals()},
+                             message_));
 }
 
 void Firmware::SendTiming(const Estimate& estimate, std::int64_t frame_ns) noexcept {

@@ -14,8 +14,6 @@
 #include <stdexcept>
 #include <thread>
 
-#include "../../platform/baremetal/src/recorded_line.h"
-
 extern char** environ;
 
 namespace disflow::firmware_test {
@@ -25,9 +23,10 @@ namespace fs = std::filesystem;
 
 constexpr const char* kQemu = "/usr/bin/qemu-system-arm";
 constexpr int kConnectTries = 500;
+constexpr std::uint32_t kRecordingMagic = 0x43524644;  // RecordedLine::kMagic
 
 void WriteRecording(const fs::path& file, const std::vector<std::byte>& bytes) {
-  const std::array<std::uint32_t, 2> header{baremetal::RecordedLine::kMagic,
+  const std::array<std::uint32_t, 2> header{kRecordingMagic,
                                             static_cast<std::uint32_t>(bytes.size())};
   std::ofstream out(file, std::ios::binary);
   out.write(reinterpret_cast<const char*>(header.data()), sizeof(header));

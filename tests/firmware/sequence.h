@@ -2,14 +2,12 @@
 #pragma once
 
 #include <algorithm>
-#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "disflow/host/object_meshes.h"
 #include "disflow/host/open_sensor.h"
-#include "disflow/tracker.h"
 #include "image_reducer.h"
 #include "profile.h"
 
@@ -48,16 +46,6 @@ inline std::vector<Frame> MakeSequence(const std::string& object, const std::str
     frames.push_back({{begin, begin + size}, reduced, sensor.simulated()->truth().object.pose});
   }
   return frames;
-}
-
-/// What the host's build of the firmware's tracker makes of a sequence.
-inline std::vector<Estimate> TrackOnHost(const std::vector<Frame>& frames) {
-  const auto tracker = std::make_unique<Tracker<firmware::Profile>>(firmware::FirmwareConfig());
-  std::vector<Estimate> estimates(frames.size());
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    (void)tracker->Process(frames[i].View(), estimates[i]);
-  }
-  return estimates;
 }
 
 /// Area under the share of frames against the threshold of ADD, up to 0.10 m, in percent. Estimates

@@ -1,8 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <unistd.h>
+
+#include <array>
 #include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "answer_csv.h"
@@ -55,6 +62,30 @@ inline std::vector<std::byte> Recording(const std::vector<Frame>& frames, std::s
     }
   }
   return bytes;
+}
+
+/// What the firmware's tracker makes of a sequence when it is built for the host.
+inline std::vector<PoseCameraFromObject> TrackOnHost(const std::vector<Frame>& frames) {
+  const std::filesystem::path packets = std::filesystem::temp_directory_path() /
+                                        ("disflow-packets-" + std::to_string(::getpid()) + ".bin");
+  const std::vector<std::byte> bytes = Recording(frames, frames.size());
+  std::ofstream(packets, std::ios::binary)
+      .write(reinterpret_cast<const char*>(bytes.data()),
+             static_cast<std::streamsize>(bytes.size()));
+  const std::string command = std::string(DISFLOW_HOST_REFERENCE) + " < " + packets.string();
+  std::FILE* const pipe = ::popen(command.c_str(), "r");
+  std::vector<PoseCameraFromObject> poses;
+  std::array<float, 7> v{};
+  while (pipe != nullptr && std::fscanf(pipe, "%f %f %f %f %f %f %f", &v[0], &v[1], &v[2], &v[3],
+                                        &v[4], &v[5], &v[6]) == 7) {
+    poses.push_back(
+        {PoseCameraFromObject::Quaternion(v[3], v[4], v[5], v[6]), Vec3(v[0], v[1], v[2])});
+  }
+  if (pipe == nullptr || ::pclose(pipe) != 0 || poses.size() != frames.size()) {
+    throw std::runtime_error(command + " failed");
+  }
+  std::filesystem::remove(packets);
+  return poses;
 }
 
 /// Puts the first frames of a sequence into the board's memory and collects the answers.

@@ -24,23 +24,17 @@ struct Difference {
 };
 
 Difference Largest(const std::vector<apps::BoardAnswer>& answers,
-                   const std::vector<Estimate>& host) {
+                   const std::vector<PoseCameraFromObject>& host) {
   Difference largest;
   for (std::size_t i = 0; i < answers.size(); ++i) {
     const PoseCameraFromObject target = apps::PoseOf(answers[i].odometry);
-    const PoseCameraFromObject& expected = host.at(i).T_co;
+    const PoseCameraFromObject& expected = host.at(i);
     const Vec3 off = LogSo3(Mat3(target.rotation() * expected.rotation().transpose()));
     largest.position_m =
         std::max(largest.position_m, (target.translation() - expected.translation()).norm());
     largest.rotation_rad = std::max(largest.rotation_rad, off.norm());
   }
   return largest;
-}
-
-std::vector<PoseCameraFromObject> Poses(const std::vector<Estimate>& estimates) {
-  std::vector<PoseCameraFromObject> poses;
-  for (const Estimate& estimate : estimates) poses.push_back(estimate.T_co);
-  return poses;
 }
 
 struct Case {
@@ -54,10 +48,10 @@ TEST_P(SequenceTest, MicroProfile_TracksWithAddAucOf95OrMore) {
   const auto [object, noise] = GetParam();
   const std::vector<Frame> frames = MakeSequence(object, noise, kWhole);
   ASSERT_EQ(frames.size(), std::size_t{kWhole});
-  const std::vector<Estimate> host = TrackOnHost(frames);
+  const std::vector<PoseCameraFromObject> host = TrackOnHost(frames);
   const auto model =
       std::string(object) == "box" ? host::MakeCrackerBox() : host::MakeMustardBottle();
-  const double auc = AddAuc(frames, Poses(host), model);
+  const double auc = AddAuc(frames, host, model);
   std::printf("%s %s, Micro: ADD-AUC %.2f\n", object, noise, auc);
   EXPECT_GE(auc, 95.0);
 }
@@ -95,7 +89,7 @@ class BoardTest : public ::testing::TestWithParam<Board> {
 
 TEST_P(BoardTest, FramesOverTheUart_ComeBackAsTheHostsPoses) {
   const std::vector<Frame> frames = MakeSequence("bottle", "clean", 4);
-  const std::vector<Estimate> host = TrackOnHost(frames);
+  const std::vector<PoseCameraFromObject> host = TrackOnHost(frames);
   FedBoard board({.board = GetParam()});
   board.WaitUntilReady();
   std::vector<apps::BoardAnswer> answers;

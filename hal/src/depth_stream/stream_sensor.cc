@@ -117,7 +117,7 @@ SensorInfo StreamSensor::DoInfo() const noexcept {
 }
 
 SensorCounters StreamSensor::DoCounters() const noexcept {
-  return {.frames = frames_, .corrupt = lost_ + refused_};
+  return {.frames = frames_, .corrupt = lost_ + refused_, .short_frames = lost_};
 }
 
 }  // namespace disflow::hal::depth_stream

@@ -51,6 +51,10 @@ Expected<std::size_t> CmsdkUart::DoReceive(std::span<std::byte> buffer) noexcept
   return {size};
 }
 
+bool CmsdkUart::idle() const noexcept {
+  return to_send_.free() == kSendCapacity && (At(kState) & kSendFull) == 0;
+}
+
 void CmsdkUart::OnReceive() noexcept {
   At(kInterrupt) = kReceiveInterrupt;
   if ((At(kState) & kReceiveOverrun) != 0) {

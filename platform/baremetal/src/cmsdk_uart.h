@@ -16,9 +16,11 @@ class CmsdkUart final : public hal::ByteLink {
 
   void OnReceive() noexcept;
   void OnTransmit() noexcept;
+  /// Whether all that was given to Send() has left.
+  [[nodiscard]] bool idle() const noexcept;
 
  private:
-  static constexpr std::uint32_t kReceiveCapacity = 4096;
+  static constexpr std::uint32_t kReceiveCapacity = 512;  // 5 ms at 921600 baud
   static constexpr std::uint32_t kSendCapacity = 1024;
 
   hal::Fault DoOpen() noexcept override;

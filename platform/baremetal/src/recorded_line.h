@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 
-#include "disflow/hal/byte_link.h"
+#include "cmsdk_uart.h"
 
 namespace disflow::baremetal {
 
@@ -13,10 +15,10 @@ namespace disflow::baremetal {
 class RecordedLine final : public hal::ByteLink {
  public:
   /// @param address Where a recording may lie: kMagic, its size in bytes (32 bits), then the bytes.
-  RecordedLine(std::uintptr_t address, hal::ByteLink& answers) noexcept
+  RecordedLine(std::uintptr_t address, CmsdkUart& answers) noexcept
       : header_(reinterpret_cast<const volatile std::uint32_t*>(address)), answers_(answers) {}
 
-  static constexpr std::uint32_t kMagic = 0x43524644;  ///< "DFRC", little endian.
+  static constexpr std::uint32_t kMagic = 0x43524644;  ///< "DFRC", little endian; also in tests.
   [[nodiscard]] bool given() const noexcept { return header_[0] == kMagic; }
 
  private:
@@ -26,6 +28,8 @@ class RecordedLine final : public hal::ByteLink {
     return answers_.Send(message);
   }
   Expected<std::size_t> DoReceive(std::span<std::byte> buffer) noexcept override {
+    // An interrupt of the line would count as work on the next frame.
+    if (!answers_.idle()) return {};
     const auto* const bytes = reinterpret_cast<const volatile std::byte*>(header_ + 2);
     std::size_t size = 0;
     while (size < buffer.size() && next_ < header_[1]) buffer[size++] = bytes[next_++];
@@ -37,7 +41,7 @@ class RecordedLine final : public hal::ByteLink {
   }
 
   const volatile std::uint32_t* header_;
-  hal::ByteLink& answers_;
+  CmsdkUart& answers_;
   std::uint32_t next_ = 0;
 };
 

@@ -25,10 +25,15 @@ class TickClock final : public hal::Clock {
       last_ = now;
       total = total_;
     }
-    const std::uint64_t seconds = total / kTicksPerSecond;
-    const std::uint64_t rest = total % kTicksPerSecond;
-    return static_cast<std::int64_t>(seconds * kNsPerSecond +
-                                     rest * kNsPerSecond / kTicksPerSecond);
+    if constexpr (kNsPerSecond % kTicksPerSecond == 0) {
+      // Without a division, whose cost depends on the time.
+      return static_cast<std::int64_t>(total * (kNsPerSecond / kTicksPerSecond));
+    } else {
+      const std::uint64_t seconds = total / kTicksPerSecond;
+      const std::uint64_t rest = total % kTicksPerSecond;
+      return static_cast<std::int64_t>(seconds * kNsPerSecond +
+                                       rest * kNsPerSecond / kTicksPerSecond);
+    }
   }
   void DoSleepUntilNs(std::int64_t deadline_ns) noexcept override {
     while (DoNowNs() < deadline_ns) {
