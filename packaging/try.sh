@@ -1,0 +1,48 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Installs a package of this project into an empty root and runs it there: packaging/try.sh PACKAGE.deb
+# Packages of another processor are unpacked only, and run under qemu-user.
+set -euo pipefail
+package="$(realpath "$1")"
+architecture="$(dpkg-deb -f "$package" Architecture)"
+root="$(mktemp -d)"
+trap 'rm -rf "$root"' EXIT
+die() { printf 'package: %s\n' "$*" >&2; exit 1; }
+
+for file in ./usr/bin/disflow_track ./etc/disflow/track.toml ./lib/systemd/system/disflow-track.service \
+  ./usr/include/disflow/tracker.h ./usr/lib/cmake/disflow/disflow-config.cmake ./usr/share/doc/disflow/deploy.md; do
+  dpkg-deb --fsys-tarfile "$package" | tar -t | grep -qx "$file" || die "$file is missing in $package"
+done
+dpkg-deb -f "$package" Depends | grep -q libc6 || die "$package has no dependencies"
+
+# try_track COMMAND...: tracks a simulated object, and says what is wrong with the settings as they are installed.
+try_track() {
+  "$@" --version
+  "$@" --sensor 'sim:box?frames=30&motion=fast' --headless 2>&1 | grep '30 with a measured pose' || die "does not track"
+  local status=0
+  "$@" --config "$config" 2>/dev/null || status=$?
+  [ $status -eq 2 ] || die "the settings as installed end with $status, 2 (no sensor) was expected"
+}
+
+if [ "$architecture" = "$(dpkg --print-architecture)" ] && [ "$(id -u)" -eq 0 ] && command -v mmdebstrap >/dev/null; then
+  suite="$(sed -n 's/^VERSION_CODENAME=//p' /etc/os-release)"
+  mmdebstrap --quiet --variant=essential --include="$package" "$suite" "$root/clean" >/dev/null 2>"$root/log" || {
+    tail -n 20 "$root/log" >&2
+    die "it cannot be installed into an empty $suite"
+  }
+  config=/etc/disflow/track.toml
+  try_track chroot "$root/clean" /usr/bin/disflow_track
+  chroot "$root/clean" dpkg --remove disflow >/dev/null
+  [ ! -e "$root/clean/usr/bin/disflow_track" ] || die "it leaves programs behind when it is removed"
+  [ -e "$root/clean/etc/disflow/track.toml" ] || die "removing it takes the settings away"
+  echo "$(basename "$package"): installed, run and removed in an empty $suite root"
+else
+  dpkg-deb -x "$package" "$root/tree"
+  config="$root/tree/etc/disflow/track.toml"
+  case "$architecture" in
+    arm64) try_track qemu-aarch64 "$root/tree/usr/bin/disflow_track" ;;
+    armhf) try_track qemu-arm "$root/tree/usr/bin/disflow_track" ;;
+    *) try_track "$root/tree/usr/bin/disflow_track" ;;
+  esac
+  echo "$(basename "$package"): unpacked and run"
+fi
