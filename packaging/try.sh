@@ -9,11 +9,12 @@ root="$(mktemp -d)"
 trap 'rm -rf "$root"' EXIT
 die() { printf 'package: %s\n' "$*" >&2; exit 1; }
 
+files="$(dpkg-deb --fsys-tarfile "$package" | tar -t)"
 for file in ./usr/bin/disflow_track ./etc/disflow/track.toml ./lib/systemd/system/disflow-track.service \
   ./usr/include/disflow/tracker.h ./usr/lib/cmake/disflow/disflow-config.cmake ./usr/share/doc/disflow/deploy.md; do
-  dpkg-deb --fsys-tarfile "$package" | tar -t | grep -qx "$file" || die "$file is missing in $package"
+  grep -qx "$file" <<<"$files" || die "$file is missing in $package"
 done
-dpkg-deb -f "$package" Depends | grep -q libc6 || die "$package has no dependencies"
+[[ "$(dpkg-deb -f "$package" Depends)" == *libc6* ]] || die "$package has no dependencies"
 
 # try_track COMMAND...: tracks a simulated object, and says what is wrong with the settings as they are installed.
 try_track() {
@@ -26,10 +27,14 @@ try_track() {
 
 if [ "$architecture" = "$(dpkg --print-architecture)" ] && [ "$(id -u)" -eq 0 ] && command -v mmdebstrap >/dev/null; then
   suite="$(sed -n 's/^VERSION_CODENAME=//p' /etc/os-release)"
-  mmdebstrap --quiet --variant=essential --include="$package" "$suite" "$root/clean" >/dev/null 2>"$root/log" || {
+  # What the package says that it needs, and nothing else.
+  needed="$(dpkg-deb -f "$package" Depends | tr ',' '\n' | awk '{print $1}' | paste -s -d ,)"
+  mmdebstrap --quiet --variant=essential --include="$needed" "$suite" "$root/clean" >/dev/null 2>"$root/log" || {
     tail -n 20 "$root/log" >&2
-    die "it cannot be installed into an empty $suite"
+    die "no empty $suite root could be made"
   }
+  cp "$package" "$root/clean/tmp/disflow.deb"
+  chroot "$root/clean" dpkg --install /tmp/disflow.deb >/dev/null || die "it cannot be installed into an empty $suite"
   config=/etc/disflow/track.toml
   try_track chroot "$root/clean" /usr/bin/disflow_track
   chroot "$root/clean" dpkg --remove disflow >/dev/null

@@ -37,9 +37,12 @@ FrameFeed::Turn FrameFeed::Next(DepthFrame& frame) {
 
 FrameFeed::Turn FrameFeed::TakeNewest(DepthFrame& frame) {
   Turn turn;
-  switch (handover_->Take(kPatience_ns, frame)) {
+  switch (handover_->Take(kPatience_ns, frame, turn.fault)) {
     case FrameHandover::Taken::kFrame:
       turn.event = FrameSource::Event::kFrame;
+      break;
+    case FrameHandover::Taken::kFault:
+      turn.event = FrameSource::Event::kUnreadable;
       break;
     case FrameHandover::Taken::kNothing:
       turn.event = FrameSource::Event::kIdle;
@@ -79,9 +82,9 @@ void FrameFeed::CaptureAll() {
       counters_ = sensor_.counters();
     }
     ++capture_turns_;
-    // An unreadable frame of a camera is counted by the sensor, and that is all that can be done.
     if (event == FrameSource::Event::kEnd) return;
     if (event == FrameSource::Event::kFrame) handover_->Put(frame);
+    if (event == FrameSource::Event::kUnreadable) handover_->PutFault(source_.fault_status());
   }
 }
 

@@ -52,10 +52,21 @@ void FrameHandover::Slot::Copy(const DepthFrame& source) {
 
 void FrameHandover::Put(const DepthFrame& frame) {
   slots_[filling_].Copy(frame);
+  slots_[filling_].fault = Status::kOk;
   {
     const std::lock_guard lock(mutex_);
-    if (waiting_) hal::AddSaturating(dropped_);
+    if (waiting_ && slots_[between_].fault == Status::kOk) hal::AddSaturating(dropped_);
     std::swap(filling_, between_);
+    waiting_ = true;
+  }
+  changed_.notify_one();
+}
+
+void FrameHandover::PutFault(Status fault) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (waiting_) return;
+    slots_[between_].fault = fault;
     waiting_ = true;
   }
   changed_.notify_one();
@@ -70,13 +81,16 @@ void FrameHandover::End(std::exception_ptr failure) noexcept {
   changed_.notify_one();
 }
 
-FrameHandover::Taken FrameHandover::Take(std::int64_t timeout_ns, DepthFrame& frame) {
+FrameHandover::Taken FrameHandover::Take(std::int64_t timeout_ns, DepthFrame& frame,
+                                         Status& fault) {
   std::unique_lock lock(mutex_);
   changed_.wait_for(lock, std::chrono::nanoseconds(timeout_ns),
                     [this] { return waiting_ || ended_; });
   if (waiting_) {
     std::swap(between_, taken_);
     waiting_ = false;
+    fault = slots_[taken_].fault;
+    if (fault != Status::kOk) return Taken::kFault;
     frame = slots_[taken_].frame;
     return Taken::kFrame;
   }
