@@ -17,7 +17,9 @@ mount -t sysfs sysfs /sys
 mount -t devtmpfs devtmpfs /dev
 mkdir -p /run /out /tmp
 ip link set lo up
-while read -r module; do insmod "/modules/$module" || echo "no $module"; done </modules/order
+while read -r module options; do
+  insmod "/modules/$module" $options || echo "no $module"
+done </modules/order
 cd /
 sh /script >/out/log 2>&1
 dmesg >/out/dmesg
@@ -54,6 +56,7 @@ class Guest:
         self._folder = folder
         self._archive = Archive()
         self._modules = ["virtio_pci", "virtio_console"]
+        self._options = {}
         shutil.rmtree(folder, ignore_errors=True)
         os.makedirs(folder)
         self._archive.add_file("bin/busybox", kernel.busybox)
@@ -63,6 +66,10 @@ class Guest:
 
     def add_modules(self, names):
         self._modules += names
+
+    def add_options(self, module, options):
+        """What the module is loaded with."""
+        self._options[module] = options
 
     def add_file(self, name, path):
         self._archive.add_file(name, path)
@@ -84,7 +91,7 @@ class Guest:
         self._archive.add_bytes("script", script.encode())
         files = self._kernel.modules(self._modules)
         self._archive.add_bytes("modules/order",
-                                "".join(os.path.basename(file) + "\n" for file in files).encode())
+                                "".join(self._line_of(file) for file in files).encode())
         for file in files:
             self._archive.add_file("modules/" + os.path.basename(file), file)
         initrd = os.path.join(self._folder, "initrd")
@@ -107,6 +114,10 @@ class Guest:
         if result.returncode != 0:
             raise RuntimeError("QEMU: " + result.stderr)
         return self._read(output)
+
+    def _line_of(self, file):
+        name = os.path.basename(file)
+        return name + " " + self._options.get(name.split(".")[0], "") + "\n"
 
     @staticmethod
     def _read(path):

@@ -12,7 +12,7 @@ import unittest
 
 import setting
 
-_SUITES = ["x86_camera", "faults", "arm_board"]
+_SUITES = ["x86_camera", "faults", "arm_board", "vivid"]
 
 
 class _Result(unittest.TextTestResult):
