@@ -6,6 +6,9 @@
 #include "disflow/posix/camera/camera_list.h"
 #include "disflow/posix/camera/v4l2_sensor.h"
 #include "exit_status.h"
+#ifdef DISFLOW_HAS_LIBCAMERA
+#include "disflow/posix/camera/libcamera_sensor.h"
+#endif
 
 namespace disflow::apps {
 namespace {
@@ -16,14 +19,21 @@ using posix::CameraAddress;
 Fault OpenCamera(const std::string& uri, host::Sensor& sensor) {
   CameraAddress address;
   if (const Fault fault = posix::ParseCameraAddress(uri, address); !fault.ok()) return fault;
+#ifndef DISFLOW_HAS_LIBCAMERA
   if (address.kind == CameraAddress::Kind::kLibcamera) {
     return hal::MakeFault(Status::kUnsupported,
                           "%s: this disflow_track was built without libcamera; install "
                           "libcamera-dev and build again, or use v4l2:",
                           uri.c_str());
   }
+#endif
   posix::CameraDescription description;
   if (address.intrinsics[0] != '\0') description = ReadCameraFile(address.intrinsics);
+#ifdef DISFLOW_HAS_LIBCAMERA
+  if (address.kind == CameraAddress::Kind::kLibcamera) {
+    return sensor.Emplace<posix::LibcameraSensor>(address, description).Open();
+  }
+#endif
   return sensor.Emplace<posix::V4l2Sensor>(address, description).Open();
 }
 
@@ -41,6 +51,12 @@ void OpenSensor(const std::string& uri, host::Sensor& sensor) {
 
 std::string SensorHelp() { return posix::kCameraAddressHelp + host::SensorHelp(); }
 
-std::string ListSensors() { return posix::DescribeV4l2Cameras(); }
+std::string ListSensors() {
+  std::string text = posix::DescribeV4l2Cameras();
+#ifdef DISFLOW_HAS_LIBCAMERA
+  text += posix::DescribeLibcameraCameras();
+#endif
+  return text;
+}
 
 }  // namespace disflow::apps

@@ -14,6 +14,9 @@
 #include <vector>
 
 #include "disflow/posix/camera/v4l2_sensor.h"
+#ifdef DISFLOW_HAS_LIBCAMERA
+#include "disflow/posix/camera/libcamera_sensor.h"
+#endif
 
 namespace {
 
@@ -103,6 +106,12 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "frame_log: %s\n", fault.message);
     return 2;
   }
+#ifdef DISFLOW_HAS_LIBCAMERA
+  if (address.kind == posix::CameraAddress::Kind::kLibcamera) {
+    posix::LibcameraSensor camera(address, {});
+    return Run(camera, std::atoi(argv[2]), argc > 3 ? argv[3] : "/dev/null");
+  }
+#endif
   posix::V4l2Sensor sensor(address, {});
   return Run(sensor, std::atoi(argv[2]), argc > 3 ? argv[3] : "/dev/null");
 }

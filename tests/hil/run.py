@@ -12,7 +12,7 @@ import unittest
 
 import setting
 
-_SUITES = ["x86_camera", "faults", "arm_board", "vivid"]
+_SUITES = ["x86_camera", "faults", "arm_board", "vivid", "libcamera_sensor"]
 
 
 class _Result(unittest.TextTestResult):

@@ -58,6 +58,7 @@ int main(int argc, char** argv) {
   app.add_option("--serial", arguments.model.serial);
   app.add_option("--vendor", arguments.model.vendor_id);
   app.add_option("--product", arguments.model.product_id);
+  app.add_option("--attach", arguments.model.attach_file, "vhci_hcd's file of that name");
   app.add_option("--fault", faults, "FRAME:error, short, garbage, stall=MS or detach=MS");
   app.add_option("--played", arguments.played_file, "File to write when all has been sent");
   CLI11_PARSE(app, argc, argv);

@@ -17,7 +17,6 @@
 namespace disflow::hil {
 namespace {
 
-constexpr const char* kAttachFile = "/sys/devices/platform/vhci_hcd.0/attach";
 constexpr std::int64_t kMs = 1'000'000;
 constexpr int kHighSpeed = 3;  // of enum usb_device_speed
 constexpr std::uint32_t kDeviceId = 0x10001;
@@ -88,14 +87,14 @@ void UsbCamera::Attach() {
   socket_ = ends[0];
   const std::string line = "0 " + std::to_string(ends[1]) + " " + std::to_string(kDeviceId) + " " +
                            std::to_string(kHighSpeed);
-  const int file = ::open(kAttachFile, O_WRONLY | O_CLOEXEC);
+  const int file = ::open(options_.attach_file.c_str(), O_WRONLY | O_CLOEXEC);
   // The port may need a moment after the last device has gone.
   bool attached = false;
   for (int attempt = 0; attempt < 100 && file >= 0 && !attached; ++attempt) {
     attached = ::write(file, line.data(), line.size()) == static_cast<ssize_t>(line.size());
     if (!attached) std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
-  if (!attached) Fail(kAttachFile);
+  if (!attached) Fail(options_.attach_file);
   (void)::close(file);
   (void)::close(ends[1]);  // the kernel has its own reference
   transfers_.clear();

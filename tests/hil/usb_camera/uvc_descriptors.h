@@ -18,6 +18,7 @@ struct CameraModelOptions {
   int width_px = 320;
   int height_px = 240;
   int rate_hz = 30;
+  std::string attach_file = "/sys/devices/platform/vhci_hcd.0/attach";  ///< Of vhci_hcd.
 
   [[nodiscard]] std::uint32_t image_bytes() const {
     const int planes = format == "INZI" ? 2 : 1;
