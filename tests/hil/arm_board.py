@@ -1,16 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """An arm64 board on a stock kernel: USB camera, tracker, and MAVLink over its PL011 UART."""
-import glob
-import json
 import math
 import os
-import shutil
-import subprocess
 import unittest
 
 import setting
 from guest import Guest
-from live import SCRIPT, make_kernel, replay, rows_of
+from live import SCRIPT, decode, make_kernel, replay, rows_of
 from sequences import Sequence
 
 FRAMES = 90
@@ -41,16 +37,6 @@ def difference(a, b):
     # The vector part stays exact where the scalar part has lost its digits.
     relative = _product((a[1][0], -a[1][1], -a[1][2], -a[1][3]), b[1])
     return distance, math.degrees(2 * math.atan2(math.hypot(*relative[1:]), abs(relative[0])))
-
-
-def decode(path):
-    """Messages in the bytes that a line carried."""
-    folder = os.path.join(os.path.dirname(__file__), "..", "integration", "wire", "node_modules")
-    if shutil.which("node") is None or not glob.glob(os.path.join(folder, "node-mavlink")):
-        raise unittest.SkipTest("node-mavlink is missing: npm ci --prefix tests/integration/wire")
-    script = os.path.join(os.path.dirname(__file__), "decode.js")
-    output = subprocess.run(["node", script, path], check=True, capture_output=True, text=True)
-    return [json.loads(line) for line in output.stdout.splitlines()]
 
 
 class ArmBoard(unittest.TestCase):

@@ -6,10 +6,12 @@ import unittest
 
 import setting
 from guest import Guest
-from live import SCRIPT, check_trajectory, make_kernel, rows_of
+from live import SCRIPT, check_trajectory, decode, make_kernel, rows_of
 from sequences import Sequence
 
 FRAMES = 40
+# More than a pseudo-terminal's buffers hold.
+_LONG = 90
 _HZ = 4
 _SENSOR = "v4l2:/dev/video0?format=Z16&depth_scale=0.001&intrinsics=/cam.toml"
 
@@ -34,11 +36,11 @@ class CameraFaults(unittest.TestCase):
     def setUpClass(cls):
         kernel = make_kernel("amd64")
         cls.sequence = Sequence(setting.programs, os.path.join(setting.folder, "box_faults"),
-                                frames=FRAMES)
+                                frames=_LONG)
         cls.refusals = _refusals(cls.sequence.k_option())
         guest = Guest(kernel, os.path.join(setting.folder, "faults"))
         guest.add_modules(["vhci_hcd", "uvcvideo"])
-        for program in ["hil_usb_camera", "hil_frame_log", "disflow_track"]:
+        for program in ["hil_usb_camera", "hil_frame_log", "hil_far_end", "disflow_track"]:
             guest.add_program(os.path.join(setting.programs, program))
         guest.add_file("frames", cls.sequence.raw)
         guest.add_text("cam.toml", cls.sequence.camera_file())
@@ -69,9 +71,19 @@ plugged
 hil_frame_log "v4l2:/dev/video0?{cls.sequence.k_option()}" 3 >/out/known_model
 unplug
 # Damaged frames as the driver marks them, silence, unplugging.
+# Meanwhile the peer of the link comes, goes and comes back.
 nodrop 1
-camera --fps {_HZ} --fault 8:error --fault 11:short --fault 14:stall=2600 --fault 24:detach=900
-track damaged "{_SENSOR}"
+camera --fps {_HZ} --count {FRAMES} --fault 8:error --fault 11:short --fault 14:stall=2600 --fault 24:detach=900
+listen() {{ hil_far_end udp 14550 /out/$1 & peer=$!; }}
+(sleep 1; listen udp_before; sleep 2; kill $peer; sleep 2; listen udp_after; sleep 20; kill $peer) &
+track damaged "{_SENSOR}" --link udp://127.0.0.1:14550
+unplug
+# A serial line whose far end stops, and goes on later.
+hil_far_end line /line /out/line & line=$!
+camera --fps 30
+(sleep 4; kill -USR1 $line) &
+track stalled "{_SENSOR}" --link "serial:///line?baud=921600"
+wait $line
 unplug
 # The same damage when the driver hides it.
 nodrop 0
@@ -79,7 +91,7 @@ camera --fps {_HZ} --count 12 --fault 5:error --fault 8:short
 track hidden "{_SENSOR}"
 unplug
 # A tracker that is stopped for a while.
-camera --fps 30
+camera --fps 30 --count {FRAMES}
 plugged
 disflow_track --sensor "{_SENSOR}" --csv /out/stopped.csv --headless --no-timing 2>/out/stopped & track=$!
 usleep 500000; kill -STOP $track; usleep 600000; kill -CONT $track
@@ -128,6 +140,32 @@ unplug
         setting.figures.append(f"x86: {len(rows)} of {FRAMES} frames through a damaged frame, a short one, "
                                f"2.6 s of silence and 0.9 s unplugged; reset_counter {resets[0]} to {resets[-1]}, "
                                f"at the end {rows[-1]['state']}")
+
+    def messages(self, name):
+        path = os.path.join(setting.folder, "faults", name + ".bin")
+        with open(path, "wb") as file:
+            file.write(self.out[name])
+        return decode(path)
+
+    def test_counters_leave_over_the_link_to_a_peer_that_went_and_came_back(self):
+        before, after = self.messages("udp_before"), self.messages("udp_after")
+        for part in [before, after]:
+            self.assertGreater(sum(message["message"] == "ODOMETRY" for message in part), 3)
+        self.assertNotRegex(self.text("damaged"), r"udp://\S+ \d+ messages sent, \d+ dropped, 0 refused")
+        status = [message for message in after if message["message"] == "DISFLOW_STATUS"][-1]
+        self.assertEqual(status["corrupt_frames"], 2)
+        self.assertEqual(status["sensor_restarts"], 1)
+        self.assertEqual(status["sensor_reconnects"], 1)
+
+    def test_stalled_line_drops_whole_messages_and_tracking_goes_on(self):
+        rows = self.rows("stalled")
+        self.assertEqual(len(rows), _LONG)
+        report = self.text("stalled")
+        sent, dropped = map(int, re.search(r"serial://\S+ (\d+) messages sent, (\d+) dropped", report).groups())
+        self.assertGreater(dropped, 0)
+        self.assertEqual(len(self.messages("line")), sent, "no message may be cut or lost once it was sent")
+        setting.figures.append(f"x86: stalled serial line: {sent} messages sent and decoded, {dropped} dropped as a "
+                               f"whole, {len(rows)} of {_LONG} frames tracked")
 
     def test_frames_that_the_driver_hides_are_counted_as_gaps(self):
         rows = self.rows("hidden")

@@ -15,7 +15,8 @@ export PATH=/bin
 mount -t proc proc /proc
 mount -t sysfs sysfs /sys
 mount -t devtmpfs devtmpfs /dev
-mkdir -p /run /out /tmp
+mkdir -p /run /out /tmp /dev/pts
+mount -t devpts devpts /dev/pts
 ip link set lo up
 while read -r module options; do
   insmod "/modules/$module" $options || echo "no $module"

@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the tests of live cameras share: the guest's shell functions, and replays to compare with."""
 import csv
+import glob
 import io
+import json
 import os
+import shutil
 import subprocess
 import unittest
 
@@ -53,3 +56,13 @@ def check_trajectory(test, sequence, name, rows):
     for row in rows + replayed:
         del row["dropped"]
     test.assertEqual(rows, replayed)
+
+
+def decode(path):
+    """Messages in the bytes that a line carried."""
+    folder = os.path.join(os.path.dirname(__file__), "..", "integration", "wire", "node_modules")
+    if shutil.which("node") is None or not glob.glob(os.path.join(folder, "node-mavlink")):
+        raise unittest.SkipTest("node-mavlink is missing: npm ci --prefix tests/integration/wire")
+    script = os.path.join(os.path.dirname(__file__), "decode.js")
+    output = subprocess.run(["node", script, path], check=True, capture_output=True, text=True)
+    return [json.loads(line) for line in output.stdout.splitlines()]
