@@ -16,8 +16,10 @@ constexpr float kInitialAngularAccelerationStd_rps2 = 20.0F;
 // A normalised innovation squared that smooth motion exceeds once in a million frames (chi-squared,
 // six degrees of freedom), and what an impulse may do.
 constexpr float kImpulseNis = 38.0F;
-constexpr float kImpulseSpeedStd_mps = 1.0F;
-constexpr float kImpulseRateStd_rps = 8.0F;
+constexpr float kImpulseSpeedStd_mps = 0.4F;
+constexpr float kImpulseRateStd_rps = 3.0F;
+// An object that was just let go or hit keeps its new velocity.
+constexpr float kImpulseAccelerationShare = 0.1F;
 // Beyond this gap the extrapolation by velocity is worthless; the covariance says so anyway.
 constexpr float kMaxStep_s = 2.0F;
 
@@ -77,6 +79,7 @@ void TwistFilter::Predict(StampNs stamp_ns) noexcept {
   const float dt = StepSeconds(stamp_ns_, stamp_ns);
   const float half_dt2 = 0.5F * dt * dt;
   last_step_s_ = dt;
+  Turn(ExpSo3(Vec3(dt * twist_.tail<3>())));
   T_co_ = Moved(T_co_, dt * twist_ + half_dt2 * acceleration_);
   twist_ += dt * acceleration_;
   stamp_ns_ = stamp_ns;
@@ -95,6 +98,16 @@ void TwistFilter::Predict(StampNs stamp_ns) noexcept {
   AddProcessNoise(dt);
 }
 
+/// What is not known of a pose moves with the object: the axis of a can stays the can's.
+void TwistFilter::Turn(const Mat3& rotation) noexcept {
+  Mat6 turn = Mat6::Zero();
+  turn.topLeftCorner<3, 3>() = rotation;
+  turn.bottomRightCorner<3, 3>() = rotation;
+  for (auto& row : covariance_) {
+    for (Mat6& block : row) block = turn * block * turn.transpose();
+  }
+}
+
 /// The object was hit or let go since the last frame, at an unknown time: its velocity may have
 /// jumped, and what was known of its acceleration is void.
 void TwistFilter::AddImpulse() noexcept {
@@ -106,7 +119,7 @@ void TwistFilter::AddImpulse() noexcept {
   covariance_[1][0] += (0.5F * dt) * jump;
   covariance_[1][1] += jump;
   for (std::size_t i = 0; i < kBlocks; ++i) covariance_[2][i] = covariance_[i][2] = Mat6::Zero();
-  covariance_[2][2] = InitialAcceleration();
+  covariance_[2][2] = kImpulseAccelerationShare * InitialAcceleration();
   acceleration_.setZero();
 }
 

@@ -79,8 +79,10 @@ struct RegistrationConfig {
   float hypothesis_score = 0.75F;
   int hypothesis_iterations = 3;
   int score_points = 120;
-  float covariance_inflation = 1.0F;
-  float drift_inflation = 8.0F;
+  float gradient_std_rad = 0.025F;
+  float white_noise_share = 0.25F;
+  float drift_position = 8.0F;
+  float drift_rotation = 0.5F;
 };
 
 /// Velocity at the capture time.

@@ -136,13 +136,16 @@ constexpr void VisitFields(ConfigType& config, Visitor&& visitor) {
         "steps per starting pose");
   field("registration.score_points", reg.score_points, 20, 500, "1",
         "samples used to score a pose");
-  field("registration.covariance_inflation", reg.covariance_inflation, 1.0, 1e4, "1",
-        "factor on the pose covariance for what the noise model leaves out: correlated noise and "
-        "model error");
-  field(
-      "registration.drift_inflation", reg.drift_inflation, 0.0, 1e4, "1",
-      "what each piece of surface between the first view and the present one adds to the reported "
-      "pose covariance, in multiples of the registration's own");
+  field("registration.gradient_std_rad", reg.gradient_std_rad, 0.0, 1.0, "rad",
+        "error of the field's gradients; what it makes up for a rotation does not count as known");
+  field("registration.white_noise_share", reg.white_noise_share, 0.01, 100.0, "1",
+        "share of the pose covariance that changes from frame to frame, as the twist filter takes "
+        "it");
+  field("registration.drift_position", reg.drift_position, 0.0, 1e4, "1",
+        "what each piece of surface between the first view and the present one adds to the "
+        "position's variance, in multiples of the registration's own");
+  field("registration.drift_rotation", reg.drift_rotation, 0.0, 1e4, "1",
+        "the same for the rotation");
   auto& twist = config.twist;
   field("twist.linear_jerk_psd", twist.linear_jerk_psd, 1e-6, 1e9, "m^2/s^5",
         "power density of the jerk, translation");

@@ -13,6 +13,7 @@
 #include "disflow/field/edge_map.h"
 #include "disflow/flow/model_agreement.h"
 #include "disflow/flow/pose_search.h"
+#include "disflow/flow/pose_uncertainty.h"
 #include "disflow/flow/registration.h"
 #include "disflow/flow/tracking_monitor.h"
 #include "disflow/flow/twist_filter.h"
@@ -89,7 +90,15 @@ class Tracker {
   [[nodiscard]] bool IsSameObjectFrame(const DepthFrame& frame,
                                        const PoseObjectFromCamera& T_oc) const noexcept;
   void Coast(StampNs stamp_ns, Estimate& estimate) const noexcept;
-  [[nodiscard]] Mat6 PoseCovariance(const Aligned& aligned) const noexcept;
+  struct PoseCovariance {
+    bool solved = false;
+    Mat6 white = Mat6::Zero();     ///< What changes from frame to frame.
+    Mat6 reported = Mat6::Zero();  ///< With the drift of the model since its first view.
+    /// Of the twist, along what no surface tells.
+    Mat6 twist_unobserved = Mat6::Zero();
+  };
+  [[nodiscard]] PoseCovariance CovarianceOf(const Aligned& aligned,
+                                            StampNs stamp_ns) const noexcept;
   [[nodiscard]] bool IsForeign(const Vec3& x_o) const noexcept;
   void RememberView(const DepthFrame& frame) noexcept;
   void FuseObservations(Estimate& estimate) noexcept;
@@ -108,6 +117,7 @@ class Tracker {
   PoseObjectFromCamera T_oc_previous_;  ///< Of the last registered frame.
 
   Mat6 registered_covariance_ = Mat6::Zero();  ///< Of the last registered pose.
+  StampNs observed_ns_ = 0;  ///< When the surface last told the pose in all directions.
 
   typename Segmenter<Limits>::Mask object_mask_;
   StageScratch<Segmenter<Limits>, SurfaceSampler<Limits>> scratch_;

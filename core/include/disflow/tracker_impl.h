@@ -169,6 +169,7 @@ void Tracker<Limits>::StartObject(const DepthFrame& frame) noexcept {
   twist_filter_.Start(config_.twist, frame.stamp_ns, T_oc_.Inverse(),
                       kDefinedPoseVariance * Mat6::Identity());
   registered_covariance_ = kDefinedPoseVariance * Mat6::Identity();
+  observed_ns_ = frame.stamp_ns;
   monitor_.Start(config_.monitor, frame.stamp_ns);
   frame_index_ = 0;
   started_ = true;
@@ -192,7 +193,7 @@ typename Tracker<Limits>::Aligned Tracker<Limits>::Register(const DepthFrame& fr
   registration_.SetObservations(samples_, edges_);
   Aligned aligned =
       registration_.Align(field_, model_edges_, config_.registration, start.T_oc, start.T_expected,
-                          start.robust_scale_m, config_.registration.iterations);
+                          start.robust_scale, config_.registration.iterations);
   estimate.hypotheses = static_cast<std::uint8_t>(start.tried);
   estimate.iterations = static_cast<std::uint8_t>(aligned.iterations);
   estimate.inliers = static_cast<std::uint16_t>(aligned.inliers);
@@ -210,22 +211,19 @@ template <class Limits>
 Status Tracker<Limits>::Conclude(const DepthFrame& frame, Status observed, const Aligned& aligned,
                                  Estimate& estimate) noexcept {
   TrackingMonitor::Evidence evidence;
-  Mat6 covariance = Mat6::Zero();  // of this registration alone
-  Mat6 reported = Mat6::Zero();    // with the drift of the model since its first view
+  PoseCovariance covariance;
   if (aligned.solved) {
-    covariance = PoseCovariance(aligned);
-    reported =
-        (1.0F + config_.registration.drift_inflation * (1.0F + aligned.generation)) * covariance;
+    covariance = CovarianceOf(aligned, frame.stamp_ns);
     const ModelAgreement agreement = AgreementWith(frame, aligned.T_oc);
     estimate.conflict = agreement.conflict();
     estimate.visible = agreement.visible();
-    evidence = {true,
+    evidence = {covariance.solved,
                 estimate.score,
                 agreement.conflict(),
                 aligned.inliers,
                 registration_.size(),
-                std::sqrt(reported.diagonal().head<3>().maxCoeff()),
-                std::sqrt(reported.diagonal().tail<3>().maxCoeff())};
+                std::sqrt(covariance.reported.diagonal().template head<3>().maxCoeff()),
+                std::sqrt(covariance.reported.diagonal().template tail<3>().maxCoeff())};
   }
   const bool near = !monitor_.Doubts(frame.stamp_ns) || IsSameObjectFrame(frame, aligned.T_oc);
   const bool accepted =
@@ -235,16 +233,17 @@ Status Tracker<Limits>::Conclude(const DepthFrame& frame, Status observed, const
   if (accepted) {
     T_oc_ = aligned.T_oc;
     T_oc_previous_ = T_oc_;
+    if (covariance.twist_unobserved.isZero(0.0F)) observed_ns_ = frame.stamp_ns;
     // The twist filter sees differences between frames, in which the drift of the model cancels.
     twist_filter_.Predict(frame.stamp_ns);
-    twist_filter_.Update(T_oc_.Inverse(), covariance);
+    twist_filter_.Update(T_oc_.Inverse(), covariance.white);
     // Along a direction that the surface hardly tells, the motion up to now says more.
-    estimate.weak = FindWeakDirection(reported, config_.monitor);
+    estimate.weak = FindWeakDirection(covariance.reported, config_.monitor);
     if (estimate.weak.kind != WeakKind::kNone) T_oc_ = twist_filter_.T_co().Inverse();
     field_.SetGeneration(aligned.generation + 1.0F);
-    registered_covariance_ = reported;
-    estimate.pose_covariance = reported;
-    estimate.twist_covariance = twist_filter_.twist_covariance();
+    registered_covariance_ = covariance.reported;
+    estimate.pose_covariance = covariance.reported;
+    estimate.twist_covariance = twist_filter_.twist_covariance() + covariance.twist_unobserved;
   } else {
     Coast(frame.stamp_ns, estimate);
   }
@@ -299,22 +298,35 @@ void Tracker<Limits>::Coast(StampNs stamp_ns, Estimate& estimate) const noexcept
   estimate.weak = FindWeakDirection(estimate.pose_covariance, config_.monitor);
 }
 
-/// Covariance of (origin's position, rotation) in camera axes from the information about the
-/// centre, object frame.
+/// Covariances of (origin's position, rotation) in camera axes.
 template <class Limits>
-Mat6 Tracker<Limits>::PoseCovariance(const Aligned& aligned) const noexcept {
-  const Mat6 covariance_o = SymmetricSolver6(aligned.information).Inverse();
-  // T_oc' = exp(xi) T_oc moves the object's origin by -t + theta x c and turns the object by
-  // -theta, object axes.
+typename Tracker<Limits>::PoseCovariance Tracker<Limits>::CovarianceOf(
+    const Aligned& aligned, StampNs stamp_ns) const noexcept {
+  constexpr float kLongest_s = 0.6F;  // a turn may then be anything
+  const PoseUncertainty uncertainty =
+      Uncertainty(aligned.information, config_.registration.gradient_std_rad);
   const Mat3 R_co = aligned.T_oc.rotation().transpose();
-  Mat6 jacobian = Mat6::Zero();
-  jacobian.template topLeftCorner<3, 3>() = -R_co;
-  jacobian.template topRightCorner<3, 3>() = -R_co * Skew(aligned.center_m);
-  jacobian.template bottomRightCorner<3, 3>() = -R_co;
-  const Mat6 covariance_c = jacobian * covariance_o * jacobian.transpose();
-  Mat6 inflated = config_.registration.covariance_inflation * covariance_c;
-  inflated.diagonal().array() += kDefinedPoseVariance;
-  return inflated;
+  const Vec3 to_origin_m = -aligned.center_m;
+  const auto in_camera = [&](const Mat6& covariance_o) {
+    return Moved(covariance_o, R_co, to_origin_m);
+  };
+  const auto since_s = static_cast<float>(static_cast<double>(stamp_ns - observed_ns_) * 1e-9);
+  const float unobserved_s = std::min(since_s, kLongest_s);
+
+  PoseCovariance result;
+  result.solved = uncertainty.solved;
+  result.white = config_.registration.white_noise_share * in_camera(uncertainty.covariance);
+  result.reported =
+      in_camera(WithDrift(uncertainty.covariance, aligned.generation, config_.registration));
+  if (!uncertainty.IsComplete()) {
+    result.twist_unobserved = in_camera(uncertainty.unobserved);
+    const Mat6 turned = unobserved_s * unobserved_s * result.twist_unobserved;
+    result.reported += turned;
+    result.reported.template topLeftCorner<3, 3>() += OffTangent(turned);
+  }
+  result.white.diagonal().array() += kDefinedPoseVariance;
+  result.reported.diagonal().array() += kDefinedPoseVariance;
+  return result;
 }
 
 /// Whether a point lies in space that the camera has looked through.

@@ -4,18 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <limits>
-#include <random>
+
+#include "symmetric_matrix.h"
 
 namespace disflow {
 namespace {
 
-Mat6 RandomPositiveDefinite(unsigned seed) {
-  std::mt19937 random(seed);
-  std::normal_distribution<float> normal;
-  Mat6 root;
-  for (int i = 0; i < 36; ++i) root(i / 6, i % 6) = normal(random);
-  return root * root.transpose() + Mat6::Identity();
-}
+using testing::RandomPositiveDefinite;
 
 TEST(SymmetricSolver6, Solution_SatisfiesTheSystem) {
   for (unsigned seed = 0; seed < 20; ++seed) {

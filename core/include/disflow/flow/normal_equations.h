@@ -19,6 +19,10 @@ struct NormalEquations {
   float weighted_square_sum = 0.0F;
   float weight_sum = 0.0F;
   float generation_sum = 0.0F;
+  /// Moments of the samples' weights about the centre of rotation.
+  float moment_0 = 0.0F;
+  Vec3 moment_1_m = Vec3::Zero();
+  Mat3 moment_2_m2 = Mat3::Zero();
 
   /// @param lever_m The point relative to the centre of rotation.
   /// @param gradient Derivative of the residual by the point's position, object frame.
@@ -28,6 +32,23 @@ struct NormalEquations {
     j.tail<3>() = lever_m.cross(gradient);
     h.noalias() += weight * j * j.transpose();
     b.noalias() += (weight * residual_m) * j;
+  }
+
+  void AddMoments(const Vec3& lever_m, float weight) noexcept {
+    moment_0 += weight;
+    moment_1_m += weight * lever_m;
+    moment_2_m2 += weight * lever_m * lever_m.transpose();
+  }
+
+  /// sum w J^T J if the gradients pointed everywhere at once: that of an isotropic residual.
+  [[nodiscard]] Mat6 Isotropic() const noexcept {
+    const Mat3 lever = Skew(moment_1_m);
+    Mat6 result;
+    result.topLeftCorner<3, 3>() = moment_0 * Mat3::Identity();
+    result.bottomLeftCorner<3, 3>() = lever;
+    result.topRightCorner<3, 3>() = -lever;
+    result.bottomRightCorner<3, 3>() = moment_2_m2.trace() * Mat3::Identity() - moment_2_m2;
+    return result;
   }
 
   /// The temporal regulariser |xi - Ad v|^2_W (section V-D), as deviation from the predicted pose.

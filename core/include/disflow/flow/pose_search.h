@@ -22,7 +22,7 @@ class PoseSearch {
   struct Start {
     PoseObjectFromCamera T_oc;
     PoseObjectFromCamera T_expected;  ///< What the motion so far says, as far as it is believed.
-    float robust_scale_m = 0.0F;      ///< How far off it may be.
+    typename RegistrationType::RobustScale robust_scale;  ///< How far off it may be.
     int tried = 1;
   };
 
@@ -49,7 +49,7 @@ class PoseSearch {
     const PoseObjectFromCamera& T_predicted = prior_.T_predicted;
     if (prior_.search == 0 && prior_.velocity_known &&
         registration_.Score(field_, config_, T_predicted) >= config_.hypothesis_score) {
-      return {T_predicted, T_predicted, kBelievedShare * config_.robust_scale_start_m, 1};
+      return {T_predicted, T_predicted, Scale(kBelievedShare, kSearchedShare), 1};
     }
     Starts starts;
     (void)starts.push_back(T_predicted);
@@ -86,6 +86,12 @@ class PoseSearch {
   static constexpr float kFewestCosine = 0.3F;
   using Starts = FixedVector<PoseObjectFromCamera, kMaxStarts>;
 
+  [[nodiscard]] typename RegistrationType::RobustScale Scale(float surface_share,
+                                                             float edge_share) const noexcept {
+    return {surface_share * config_.robust_scale_start_m,
+            edge_share * config_.robust_scale_start_m};
+  }
+
   /// While the object is lost its rotation may be off by more than a registration corrects: a part
   /// of a grid of rotations about the predicted one, a different part in every frame, so that a
   /// frame's time stays bounded. The grid reaches 30 degrees in every direction.
@@ -119,9 +125,8 @@ class PoseSearch {
     PoseObjectFromCamera T_best = prior_.T_predicted;
     float best = Plausibility(T_best, conflict);
     for (const PoseObjectFromCamera& T_start : starts) {
-      const auto aligned =
-          registration_.Align(field_, edges_, config_, T_start, T_start,
-                              config_.robust_scale_start_m, config_.hypothesis_iterations);
+      const auto aligned = registration_.Align(field_, edges_, config_, T_start, T_start,
+                                               Scale(1.0F, 1.0F), config_.hypothesis_iterations);
       if (!aligned.solved) continue;
       const float plausibility = Plausibility(aligned.T_oc, conflict);
       if (plausibility <= best) continue;
@@ -131,7 +136,7 @@ class PoseSearch {
     // Where the prediction was not believed it must not pull either.
     constexpr float kBelieved = 0.3F;
     return {T_best, Deviation(T_best) > kBelieved ? T_best : prior_.T_predicted,
-            kSearchedShare * config_.robust_scale_start_m, starts.size()};
+            Scale(kSearchedShare, kSearchedShare), starts.size()};
   }
 
   /// What the model explains of the frame, what the frame does not contradict of the model, and how

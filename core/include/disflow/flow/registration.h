@@ -9,7 +9,9 @@
 #include "disflow/depth/edge_sampler.h"
 #include "disflow/field/distance_field.h"
 #include "disflow/field/edge_map.h"
+#include "disflow/flow/edge_residual.h"
 #include "disflow/flow/normal_equations.h"
+#include "disflow/flow/pose_uncertainty.h"
 
 namespace disflow {
 
@@ -26,15 +28,24 @@ class Registration {
   using Model = EdgeMap<Limits::kMaxModelEdges>;
   using Samples = FixedVector<SurfaceSample, Limits::kMaxRegistrationPoints>;
 
+  /// Widths of the robust kernels. Edges of a view that were not seen before find others nearby, so
+  /// that theirs has to be narrow unless the pose is being searched for.
+  struct RobustScale {
+    float surface_m = 0.0F;
+    float edges_m = 0.0F;
+
+    [[nodiscard]] RobustScale Halved() const noexcept { return {0.5F * surface_m, 0.5F * edges_m}; }
+  };
+
   struct Result {
     bool solved = false;
     PoseObjectFromCamera T_oc;
-    Mat6 information =
-        Mat6::Zero();  ///< H at the end: of (translation, rotation) about center_m, object frame.
-    Vec3 center_m = Vec3::Zero();  ///< Centre of rotation, object frame.
+    RegistrationInformation information;  ///< At the end, about center_m, object frame.
+    Vec3 center_m = Vec3::Zero();         ///< Centre of rotation, object frame.
     int iterations = 0;
     int inliers = 0;
     int edge_inliers = 0;
+    float edge_trust = 1.0F;  ///< How far edges are believed, 0..1: as far as they agree.
     float rms_m = 0.0F;
     float generation = 0.0F;  ///< Mean over the surface that was registered to, see Cluster.
     int unmatched = 0;
@@ -86,7 +97,8 @@ class Registration {
     if (edges_->empty()) return 0.0F;
     float sum = 0.0F;
     for (const EdgePoint& point : *edges_) {
-      const EdgeResidual edge = FindEdge(model_edges, config, point, T_oc, config.match_radius_m);
+      const auto edge =
+          FindEdge(model_edges, config.edge_std_px, point, T_oc, config.match_radius_m);
       if (edge.found) sum += GemanMcClure(edge.residual_m, 2.0F * edge.sigma_m);
     }
     return sum / static_cast<float>(edges_->size());
@@ -94,17 +106,17 @@ class Registration {
 
   /// Iterates closed-form steps from T_start.
   /// @param T_predicted Centre of the temporal regulariser.
-  /// @param scale_m Width of the robust kernel at the first step, halved at each.
+  /// @param scale Widths of the robust kernels at the first step, halved at each.
   [[nodiscard]] Result Align(const Field& field, const Model& model_edges,
                              const RegistrationConfig& config, const PoseObjectFromCamera& T_start,
-                             const PoseObjectFromCamera& T_predicted, float scale_m,
+                             const PoseObjectFromCamera& T_predicted, RobustScale scale,
                              int iterations) const noexcept {
     Result result;
     result.T_oc = T_start;
     Correspondences matched;
-    for (int i = 0; i < iterations; ++i, scale_m *= 0.5F) {
+    for (int i = 0; i < iterations; ++i, scale = scale.Halved()) {
       const NormalEquations equations =
-          Linearise(field, model_edges, config, T_predicted, scale_m, result, matched);
+          Linearise(field, model_edges, config, T_predicted, scale, result, matched);
       Vec6 xi;
       if (equations.inliers < kFewestInliers || !equations.Solve(config.damping, xi)) {
         result.solved = false;
@@ -113,9 +125,8 @@ class Registration {
       result.T_oc = Step(xi, result.center_m, result.T_oc);
       result.iterations = i + 1;
       result.solved = true;
-      result.information = equations.h;
       // Near the end the points hardly move: they keep the surface that they were matched with.
-      matched.known = i + 1 >= kSearches && scale_m < kSettledScale_m &&
+      matched.known = i + 1 >= kSearches && scale.surface_m < kSettledScale_m &&
                       xi.template head<3>().norm() < kSettled_m &&
                       xi.template tail<3>().norm() < kSettled_rad;
       if (i + 1 >= kFewestSteps && xi.template head<3>().norm() < kConverged_m &&
@@ -154,6 +165,16 @@ class Registration {
     return kShare * kShare * scale_m * scale_m;
   }
 
+  /// How far the edges of a frame are believed: edges that were seen for the first time agree with
+  /// wrong ones here and there, and can shift a face that nothing else holds.
+  [[nodiscard]] float EdgeTrust(int agreeing) const noexcept {
+    constexpr float kMostAgree = 0.8F;
+    if (edges_->empty()) return 1.0F;
+    const float share =
+        static_cast<float>(agreeing) / (kMostAgree * static_cast<float>(edges_->size()));
+    return share < 1.0F ? share * share : 1.0F;
+  }
+
   /// T <- exp(xi) T, with the rotation about a centre instead of the origin: better conditioned in
   /// float.
   [[nodiscard]] static PoseObjectFromCamera Step(const Vec6& xi, const Vec3& center_m,
@@ -168,17 +189,21 @@ class Registration {
 
   [[nodiscard]] NormalEquations Linearise(const Field& field, const Model& model_edges,
                                           const RegistrationConfig& config,
-                                          const PoseObjectFromCamera& T_predicted, float scale_m,
-                                          Result& result, Correspondences& matched) const noexcept {
+                                          const PoseObjectFromCamera& T_predicted,
+                                          const RobustScale& scale, Result& result,
+                                          Correspondences& matched) const noexcept {
     NormalEquations equations;
     result.center_m = result.T_oc * center_c_;
     result.unmatched = result.truncated = result.normal_mismatch = 0;
     for (int i = 0; i < samples_.size(); ++i)
-      AddSample(field, config, i, scale_m, result, matched, equations);
+      AddSample(field, config, i, scale.surface_m, result, matched, equations);
+    result.information.across = equations.Isotropic() - equations.h;
     for (int i = 0; i < edges_->size(); ++i)
-      AddEdge(model_edges, config, i, scale_m, result, matched, equations);
+      AddEdge(model_edges, config, i, scale.edges_m, result, matched, equations);
+    result.information.total = equations.h;
     result.inliers = equations.inliers;
     result.edge_inliers = equations.edge_inliers;
+    result.edge_trust = EdgeTrust(equations.edge_inliers);
     result.generation = equations.generation_sum / std::fmax(equations.weight_sum, 1e-9F);
     result.rms_m =
         std::sqrt(equations.weighted_square_sum / std::fmax(equations.weight_sum, 1e-9F));
@@ -232,43 +257,11 @@ class Registration {
         GemanMcClure(residual_m, std::fmax(scale_m, config.robust_scale_sigmas * sigma_m));
     const float weight = robust * std::fmin(norm, 1.0F) / (variance_m2 + Blur(scale_m));
     equations.Add(x_o - result.center_m, match.gradient / norm, residual_m, weight);
+    equations.AddMoments(x_o - result.center_m, weight);
     equations.weighted_square_sum += robust * residual_m * residual_m;
     equations.weight_sum += robust;
     equations.generation_sum += robust * match.generation;
     if (robust > 0.25F) ++equations.inliers;
-  }
-
-  struct EdgeResidual {
-    bool found = false;
-    const typename Model::Edge* edge = nullptr;
-    Vec3 position_m = Vec3::Zero();  ///< Object frame.
-    Vec3 gradient = Vec3::Zero();
-    float residual_m = 0.0F;
-    float sigma_m = 0.0F;
-  };
-
-  [[nodiscard]] static EdgeResidual FindEdge(const Model& model_edges,
-                                             const RegistrationConfig& config,
-                                             const EdgePoint& point,
-                                             const PoseObjectFromCamera& T_oc, float radius_m,
-                                             const typename Model::Edge* known = nullptr) noexcept {
-    const Mat3& r = T_oc.rotation();
-    const EdgePoint moved{T_oc * point.position_m, r * point.direction, r * point.normal,
-                          r * point.ray, point.pixel_m};
-    EdgeResidual result;
-    const auto* edge = known != nullptr ? known : model_edges.FindNearest(moved, radius_m);
-    if (edge == nullptr) return result;
-    result.edge = edge;
-    // The outline in the image moves only across the ray and across the edge.
-    const Vec3 across = moved.ray.cross(edge->direction);
-    const float sine = across.norm();
-    if (sine < kFewestEdgeSine) return result;  // the edge points at the camera
-    result.found = true;
-    result.position_m = moved.position_m;
-    result.gradient = across / sine;
-    result.residual_m = result.gradient.dot(moved.position_m - edge->position_m);
-    result.sigma_m = config.edge_std_px * point.pixel_m;
-    return result;
   }
 
   void AddEdge(const Model& model_edges, const RegistrationConfig& config, int index, float scale_m,
@@ -276,19 +269,17 @@ class Registration {
                NormalEquations& equations) const noexcept {
     auto& known = matched.edges[static_cast<std::size_t>(index)];
     if (matched.known && known == nullptr) return;
-    const EdgeResidual edge =
-        FindEdge(model_edges, config, (*edges_)[index], result.T_oc,
-                 config.match_radius_m + scale_m, matched.known ? known : nullptr);
+    const auto edge = FindEdge(model_edges, config.edge_std_px, (*edges_)[index], result.T_oc,
+                               config.match_radius_m + scale_m, matched.known ? known : nullptr);
     known = edge.edge;
     if (!edge.found) return;
     const float robust = GemanMcClure(
         edge.residual_m, std::fmax(scale_m, config.robust_scale_sigmas * edge.sigma_m));
     equations.Add(edge.position_m - result.center_m, edge.gradient, edge.residual_m,
-                  robust / (edge.sigma_m * edge.sigma_m + Blur(scale_m)));
+                  result.edge_trust * robust / (edge.sigma_m * edge.sigma_m + Blur(scale_m)));
     if (robust > 0.25F) ++equations.edge_inliers;
   }
 
-  static constexpr float kFewestEdgeSine = 0.3F;
   static constexpr float kCoarseScale_m = 0.002F;
   Samples samples_;
   Vec3 center_c_ = Vec3::Zero();

@@ -40,6 +40,7 @@ class TwistFilter {
   static constexpr std::size_t kBlocks = 3;  // pose, twist, acceleration
   using Covariance = std::array<std::array<Mat6, kBlocks>, kBlocks>;
 
+  void Turn(const Mat3& rotation) noexcept;
   void AddProcessNoise(float dt_s) noexcept;
   void AddImpulse() noexcept;
 

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "disflow/config.h"
+#include "disflow/geometry/transform.h"
+#include "disflow/types.h"
+
+namespace disflow {
+
+/// What the residuals of one registration tell of (position of the centre, rotation), and what they
+/// only seem to tell. Object axes, about the same centre.
+struct RegistrationInformation {
+  Mat6 total = Mat6::Zero();  ///< H = sum w J^T J of samples and edges.
+  /// What the samples would contribute to H if their gradients pointed anywhere across the true
+  /// ones, per squared radian that they are off.
+  Mat6 across = Mat6::Zero();
+};
+
+/// How well one registration knows the pose.
+struct PoseUncertainty {
+  Mat6 covariance = Mat6::Zero();  ///< Of (position, rotation).
+  /// Sum of u u^T over the directions u of which the surface tells nothing, each as far as an
+  /// object may move along it in a second. Zero when there are none.
+  Mat6 unobserved = Mat6::Zero();
+  bool solved = false;  ///< False when the information is not finite.
+
+  [[nodiscard]] bool IsComplete() const noexcept { return unobserved.isZero(0.0F); }
+};
+
+/// Covariance from information with errors in the variables: a gradient that is off by a small
+/// angle looks as if a can's side told a rotation about the can's axis. What such errors explain is
+/// taken off the information; directions of which they explain half and more count as unobserved.
+/// Fuller, "Measurement Error Models", section 1.2.
+/// @param gradient_std Error of the field's gradients, rad.
+[[nodiscard]] PoseUncertainty Uncertainty(const RegistrationInformation& information,
+                                          float gradient_std) noexcept;
+
+/// Adds the drift of the model: errors of earlier poses are built into the surface that later ones
+/// are registered to, whichever direction they had then.
+/// @param pieces Pieces of surface between the first view and the present one.
+[[nodiscard]] Mat6 WithDrift(const Mat6& covariance, float pieces,
+                             const RegistrationConfig& config) noexcept;
+
+/// Moves a covariance of (position of a point, rotation) to another point of the same object and
+/// into other axes.
+/// @param rotation From the covariance's axes to the wanted ones.
+/// @param to_point_m From the covariance's point to the wanted one, covariance's axes.
+[[nodiscard]] Mat6 Moved(const Mat6& covariance, const Mat3& rotation,
+                         const Vec3& to_point_m) noexcept;
+
+/// Covariance of the position that a point which turns by an uncertain angle has beyond its
+/// tangent: towards the axis by theta x displacement / 2, along the tangent as far, and not farther
+/// than the point is from the axis.
+/// @param covariance Of (displacement of the point, theta).
+[[nodiscard]] Mat3 OffTangent(const Mat6& covariance) noexcept;
+
+}  // namespace disflow

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "disflow/flow/pose_uncertainty.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "disflow/geometry/symmetric_eigen.h"
+
+namespace disflow {
+namespace {
+
+// How far an object may move in a second, where nothing is known of it.
+constexpr float kAnySpeed_mps = 0.5F;
+constexpr float kAnyRate_rps = 3.0F;
+// Share of the information that gradient errors explain from which on nothing is observed.
+constexpr float kAllApparent = 0.5F;
+// Information that is left then, as a share: the covariance must stay within what float holds.
+constexpr float kRest = 1e-3F;
+// Relative information that every direction has, so that a plane has an inverse.
+constexpr float kFloor = 1e-5F;
+
+Mat6 WithFloor(const Mat6& information) noexcept {
+  Mat6 h = information;
+  const float position = h.diagonal().head<3>().mean();
+  const float rotation = h.diagonal().tail<3>().mean();
+  h.diagonal().head<3>().array() += kFloor * position;
+  h.diagonal().tail<3>().array() += kFloor * rotation;
+  return h;
+}
+
+/// Length of a direction in units of the distance that an object may move in a second.
+float Duration_s(const Vec6& direction) noexcept {
+  return std::sqrt(direction.head<3>().squaredNorm() / (kAnySpeed_mps * kAnySpeed_mps) +
+                   direction.tail<3>().squaredNorm() / (kAnyRate_rps * kAnyRate_rps));
+}
+
+float GeometricMeanVariance(const Mat3& covariance) noexcept {
+  return std::cbrt(std::max(covariance.determinant(), 0.0F));
+}
+
+}  // namespace
+
+PoseUncertainty Uncertainty(const RegistrationInformation& information,
+                            float gradient_std) noexcept {
+  PoseUncertainty result;
+  const Eigen::LLT<Mat6> cholesky(WithFloor(information.total));
+  if (cholesky.info() != Eigen::Success || !information.total.allFinite()) return result;
+  const Mat6 l = cholesky.matrixL();
+  const auto lower = l.triangularView<Eigen::Lower>();
+  const auto upper = l.transpose().triangularView<Eigen::Upper>();
+
+  // In coordinates in which H is the identity. One column at a time: Eigen's solve for several
+  // refers to malloc.
+  const Mat6 across = (gradient_std * gradient_std) * information.across;
+  Mat6 half;
+  for (int i = 0; i < 6; ++i) half.col(i) = lower.solve(Vec6(across.col(i)));
+  Mat6 apparent;
+  for (int i = 0; i < 6; ++i) apparent.col(i) = lower.solve(Vec6(half.row(i).transpose()));
+  const SymmetricEigen6 directions(apparent);
+
+  for (int i = 0; i < 6; ++i) {
+    const Vec6 b = upper.solve(Vec6(directions.vectors.col(i)));
+    const float share = std::max(directions.values[i], 0.0F);
+    const bool observed = share < kAllApparent;
+    result.covariance += (1.0F / (observed ? 1.0F - share : kRest)) * b * b.transpose();
+    if (observed) continue;
+    const Vec6 u = b / Duration_s(b);
+    result.unobserved += u * u.transpose();
+  }
+  result.solved = result.covariance.allFinite();
+  return result;
+}
+
+Mat6 WithDrift(const Mat6& covariance, float pieces, const RegistrationConfig& config) noexcept {
+  Mat6 result = (1.0F + pieces) * covariance;
+  const float position_m2 = GeometricMeanVariance(covariance.topLeftCorner<3, 3>());
+  const float rotation_rad2 = GeometricMeanVariance(covariance.bottomRightCorner<3, 3>());
+  result.diagonal().head<3>().array() += config.drift_position * pieces * position_m2;
+  result.diagonal().tail<3>().array() += config.drift_rotation * pieces * rotation_rad2;
+  return result;
+}
+
+Mat6 Moved(const Mat6& covariance, const Mat3& rotation, const Vec3& to_point_m) noexcept {
+  Mat6 jacobian = Mat6::Zero();
+  jacobian.topLeftCorner<3, 3>() = rotation;
+  jacobian.topRightCorner<3, 3>() = -rotation * Skew(to_point_m);
+  jacobian.bottomRightCorner<3, 3>() = rotation;
+  return jacobian * covariance * jacobian.transpose();
+}
+
+Mat3 OffTangent(const Mat6& covariance) noexcept {
+  constexpr float kTiny = 1e-12F;
+  const Mat3 displacement = covariance.topLeftCorner<3, 3>();
+  const Mat3 cross = covariance.topRightCorner<3, 3>();  // E[displacement theta^T]
+  const Vec3 inward_m =
+      0.5F * Vec3(cross(2, 1) - cross(1, 2), cross(0, 2) - cross(2, 0), cross(1, 0) - cross(0, 1));
+  const float theta2 = covariance.diagonal().tail<3>().sum();
+  const float radius2_m2 = displacement.trace() / std::max(theta2, kTiny);
+  const float inward2_m2 = inward_m.squaredNorm();
+  const float share = std::min(1.0F, radius2_m2 / std::max(inward2_m2, kTiny));
+  return share * (inward_m * inward_m.transpose() +
+                  (inward2_m2 / std::max(displacement.trace(), kTiny)) * displacement);
+}
+
+}  // namespace disflow

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "disflow/flow/pose_uncertainty.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "disflow/flow/normal_equations.h"
+
+namespace disflow {
+namespace {
+
+constexpr float kRadius_m = 0.03F;
+constexpr float kSigma_m = 0.001F;
+constexpr float kGradientStd_rad = 0.025F;
+
+/// Residuals on a body of revolution about z, seen from -y, whose gradients are off at random.
+/// @param ridge 0: a can; else how far normals lean aside, as those of an oval bottle do.
+RegistrationInformation SeenBody(float gradient_std, float ridge = 0.0F) {
+  std::mt19937 random(3);
+  std::normal_distribution<float> off(0.0F, gradient_std);
+  std::uniform_real_distribution<float> angle(-1.2F, 1.2F);
+  std::uniform_real_distribution<float> height_m(-0.05F, 0.05F);
+  NormalEquations equations;
+  for (int i = 0; i < 500; ++i) {
+    const float a = angle(random);
+    const float z_m = height_m(random);
+    const bool lid = i % 10 == 0;  // so that the height is known
+    const Vec3 point_m(kRadius_m * std::sin(a), -kRadius_m * std::cos(a), z_m);
+    const float b = a + ridge * std::sin(2.0F * a);
+    const Vec3 side(std::sin(b), -std::cos(b), 0.0F);
+    const Vec3 gradient =
+        ((lid ? Vec3(Vec3::UnitZ()) : side) + Vec3(off(random), off(random), off(random)))
+            .normalized();
+    equations.Add(point_m, gradient, 0.0F, 1.0F / (kSigma_m * kSigma_m));
+    equations.AddMoments(point_m, 1.0F / (kSigma_m * kSigma_m));
+  }
+  return {equations.h, equations.Isotropic() - equations.h};
+}
+
+float Std(const Mat6& covariance, int i) { return std::sqrt(covariance(i, i)); }
+
+TEST(PoseUncertainty, ExactGradients_GiveTheInverseOfTheInformation) {
+  const RegistrationInformation information = SeenBody(0.0F, 0.4F);
+  const PoseUncertainty uncertainty = Uncertainty(information, 0.0F);
+  ASSERT_TRUE(uncertainty.solved);
+  EXPECT_TRUE(uncertainty.IsComplete());
+  EXPECT_LT((information.total * uncertainty.covariance - Mat6::Identity()).norm(), 0.05F);
+}
+
+TEST(PoseUncertainty, TurnOfACan_IsUnobservedThoughGradientsSeemToTellIt) {
+  const RegistrationInformation information = SeenBody(0.02F);
+  // What errors of the gradients pretend: the turn would be known to a few degrees.
+  EXPECT_GT(information.total(5, 5), 1.0F / (0.1F * 0.1F));
+  const PoseUncertainty uncertainty = Uncertainty(information, kGradientStd_rad);
+  ASSERT_TRUE(uncertainty.solved);
+  EXPECT_FALSE(uncertainty.IsComplete());
+  EXPECT_GT(Std(uncertainty.covariance, 5), 0.2F);
+  // The direction is the turn about the axis, and as fast as anything may turn.
+  EXPECT_NEAR(uncertainty.unobserved(5, 5), 9.0F, 0.5F);
+  EXPECT_LT((uncertainty.unobserved.topLeftCorner<3, 3>().norm()), 0.01F);
+  // What is observed stays known.
+  for (int i = 0; i < 3; ++i) EXPECT_LT(Std(uncertainty.covariance, i), 3e-4F) << i;
+  for (int i = 3; i < 5; ++i) EXPECT_LT(Std(uncertainty.covariance, i), 5e-3F) << i;
+}
+
+TEST(PoseUncertainty, TurnOfAnOvalBody_IsObservedAndHardlyTouched) {
+  const RegistrationInformation information = SeenBody(0.02F, 0.3F);
+  const PoseUncertainty without = Uncertainty(information, 0.0F);
+  const PoseUncertainty with = Uncertainty(information, kGradientStd_rad);
+  EXPECT_TRUE(with.IsComplete());
+  EXPECT_GT(Std(with.covariance, 5), Std(without.covariance, 5));
+  EXPECT_LT(Std(with.covariance, 5), 1.3F * Std(without.covariance, 5));
+}
+
+TEST(PoseUncertainty, Plane_LeavesItsTwoShiftsAndItsTurnUnobserved) {
+  NormalEquations equations;
+  for (int i = 0; i < 400; ++i) {
+    const Vec3 point_m(0.004F * static_cast<float>(i % 20 - 10),
+                       0.004F * static_cast<float>(i / 20 - 10), 0.0F);
+    equations.Add(point_m, Vec3::UnitZ(), 0.0F, 1e6F);
+    equations.AddMoments(point_m, 1e6F);
+  }
+  const PoseUncertainty uncertainty =
+      Uncertainty({equations.h, equations.Isotropic() - equations.h}, kGradientStd_rad);
+  ASSERT_TRUE(uncertainty.solved);
+  EXPECT_GT(uncertainty.unobserved(0, 0), 0.1F);
+  EXPECT_GT(uncertainty.unobserved(1, 1), 0.1F);
+  EXPECT_GT(uncertainty.unobserved(5, 5), 1.0F);
+  for (int i : {2, 3, 4}) EXPECT_LT(uncertainty.unobserved(i, i), 0.01F) << i;
+  EXPECT_LT(Std(uncertainty.covariance, 2), 1e-4F);
+}
+
+TEST(PoseUncertainty, NotFiniteOrEmptyInformation_IsNotSolved) {
+  RegistrationInformation information;
+  EXPECT_FALSE(Uncertainty(information, kGradientStd_rad).solved);
+  information = SeenBody(0.0F, 0.3F);
+  information.total(2, 2) = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_FALSE(Uncertainty(information, kGradientStd_rad).solved);
+}
+
+TEST(Drift, GrowsWithThePiecesAndInAllDirections) {
+  RegistrationConfig config;
+  Mat6 covariance = Mat6::Identity();
+  covariance(1, 1) = 1e-6F;  // known well today; the poses before may have known it badly
+  EXPECT_EQ(WithDrift(covariance, 0.0F, config), covariance);
+  float last = 0.0F;
+  for (const float pieces : {0.5F, 1.0F, 3.0F}) {
+    const Mat6 drifted = WithDrift(covariance, pieces, config);
+    EXPECT_GT(drifted(1, 1), 100.0F * covariance(1, 1));
+    EXPECT_GT(drifted(1, 1), last);
+    last = drifted(1, 1);
+  }
+}
+
+TEST(Moved, CovarianceOfATurn_ShowsAtTheEndOfTheLever) {
+  Mat6 turn = Mat6::Zero();
+  turn(5, 5) = 0.01F;  // 0.1 rad about z
+  const Mat6 moved = Moved(turn, Mat3::Identity(), Vec3(0.2F, 0.0F, 0.0F));
+  EXPECT_NEAR(Std(moved, 1), 0.02F, 1e-6F);
+  EXPECT_NEAR(moved(1, 5), 0.02F * 0.1F, 1e-7F);
+  EXPECT_NEAR(moved(0, 0), 0.0F, 1e-9F);
+}
+
+// A point on a circle, turned by a normally distributed angle: its true mean square distance from
+// the tangent, by sampling, is what the covariance says or less.
+TEST(OffTangent, CoversWhereATurnedPointIs) {
+  for (const float angle_std : {0.1F, 0.5F, 1.5F}) {
+    std::mt19937 random(1);
+    std::normal_distribution<float> angle(0.0F, angle_std);
+    float inward2_m2 = 0.0F;
+    constexpr int kDraws = 20000;
+    for (int i = 0; i < kDraws; ++i) {
+      const float inward_m = kRadius_m * (1.0F - std::cos(angle(random)));
+      inward2_m2 += inward_m * inward_m / kDraws;
+    }
+    Mat6 turn = Mat6::Zero();
+    turn(5, 5) = angle_std * angle_std;
+    const Mat6 at_point = Moved(turn, Mat3::Identity(), Vec3(kRadius_m, 0.0F, 0.0F));
+    const Mat3 off_m2 = OffTangent(at_point);
+    EXPECT_GT(3.1F * off_m2(0, 0), inward2_m2) << angle_std;  // E[theta^4] = 3 sigma^4
+    EXPECT_LE(off_m2(0, 0), 1.01F * kRadius_m * kRadius_m) << angle_std;
+    EXPECT_NEAR(off_m2(2, 2), 0.0F, 1e-9F);
+  }
+}
+
+}  // namespace
+}  // namespace disflow
