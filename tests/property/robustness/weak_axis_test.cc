@@ -38,6 +38,19 @@ TEST(WeakAxis, OfACan_IsNamed) {
   }
 }
 
+// A can's turn about its axis adds up unseen; neither the state nor the covariance hides that.
+TEST(WeakAxis, TurnOfACan_IsNeverClaimedToBeKnown) {
+  const TrackedSequence sequence = Track(host::ObjectKind::kCan, host::NoiseKind::kD415);
+  ASSERT_GT(sequence.last().off_deg, 10.0);
+  EXPECT_EQ(sequence.LongestLie(), 0);
+  for (const TrackedFrame& frame : sequence.frames()) {
+    if (frame.index < kSettled) continue;
+    EXPECT_NE(frame.estimate.state, TrackingState::kTracking) << "frame " << frame.index;
+    const double std_deg = static_cast<double>(frame.estimate.weak.std) * 180.0 / 3.14159;
+    EXPECT_LT(frame.off_deg, 3.0 * std_deg) << "frame " << frame.index;
+  }
+}
+
 TEST(WeakAxis, OfABox_IsNeverNamed) {
   const TrackedSequence sequence = Track(host::ObjectKind::kBox, host::NoiseKind::kD415);
   for (const TrackedFrame& frame : sequence.frames())
