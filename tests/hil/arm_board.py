@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """An arm64 board on a stock kernel: USB camera, tracker, and MAVLink over its PL011 UART."""
+import glob
 import math
 import os
+import shutil
+import subprocess
 import unittest
 
 import setting
@@ -39,6 +42,18 @@ def difference(a, b):
     return distance, math.degrees(2 * math.atan2(math.hypot(*relative[1:]), abs(relative[0])))
 
 
+def _packaged(program):
+    """The program from the Debian package, if one was made beside it."""
+    packages = glob.glob(os.path.join(setting.arm_programs, "..", "package", "*_arm64.deb"))
+    if not packages:
+        return program
+    root = os.path.join(setting.folder, "arm_root")
+    shutil.rmtree(root, ignore_errors=True)
+    subprocess.run(["dpkg-deb", "-x", packages[0], root], check=True)
+    setting.figures.append("arm64: disflow_track from " + os.path.basename(packages[0]))
+    return os.path.join(root, "usr", "bin", os.path.basename(program))
+
+
 class ArmBoard(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -46,6 +61,7 @@ class ArmBoard(unittest.TestCase):
                     for name in ["hil_usb_camera", "disflow_track"]]
         if not all(os.path.exists(program) for program in programs):
             raise unittest.SkipTest("no programs for arm64 in " + setting.arm_programs)
+        programs[1] = _packaged(programs[1])
         kernel = make_kernel("arm64")
         cls.sequence = Sequence(setting.programs, os.path.join(setting.folder, "box_arm"), frames=FRAMES)
         folder = os.path.join(setting.folder, "arm_board")
