@@ -77,7 +77,7 @@ uname -a
 camera
 track board "{_SENSOR}" --link "{_UART}"
 unplug
-""", timeout_s=300, serial="file:" + cls.uart)
+""", timeout_s=400, serial="file:" + cls.uart)
         cls.rows = rows_of(cls.out["board.csv"])
         cls.messages = decode(cls.uart)
 

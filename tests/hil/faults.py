@@ -44,7 +44,7 @@ class CameraFaults(unittest.TestCase):
             guest.add_program(os.path.join(setting.programs, program))
         guest.add_file("frames", cls.sequence.raw)
         guest.add_text("cam.toml", cls.sequence.camera_file())
-        cls.out = guest.boot(SCRIPT + cls.script(), timeout_s=240)
+        cls.out = guest.boot(SCRIPT + cls.script(), timeout_s=400)
 
     @classmethod
     def script(cls):

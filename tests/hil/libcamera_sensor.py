@@ -56,7 +56,7 @@ class _Libcamera:
             guest.add_program(path)
         guest.add_file("frames", cls.sequence.raw)
         guest.add_text("cam.toml", cls.sequence.camera_file())
-        cls.out = guest.boot(SCRIPT + _PREPARE + cls.script(), timeout_s=300)
+        cls.out = guest.boot(SCRIPT + _PREPARE + cls.script(), timeout_s=400)
 
     @classmethod
     def script(cls):

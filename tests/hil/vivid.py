@@ -25,7 +25,7 @@ class Vivid(unittest.TestCase):
         guest.add_options("vivid", "n_devs=1 node_types=0x1 input_types=0x0 num_inputs=1")
         for program in ["hil_frame_log", "disflow_track"]:
             guest.add_program(os.path.join(setting.programs, program))
-        cls.out = guest.boot(cls.script(), timeout_s=200)
+        cls.out = guest.boot(cls.script(), timeout_s=400)
 
     @staticmethod
     def script():

@@ -36,7 +36,7 @@ unplug
 camera --fps {FAST_HZ}
 track fast "{_SENSOR}&intrinsics=/cam.toml"
 unplug
-""", timeout_s=180)
+""", timeout_s=400)
 
     def text(self, name):
         return self.out[name].decode()

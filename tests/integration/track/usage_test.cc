@@ -164,12 +164,50 @@ TEST_F(SettingsTest, HelpAndVersion_AreAnswered) {
   for (const char* option :
        {"--sensor", "--link", "--csv", "--mesh", "--mesh-resolution", "--mesh-picture", "--flow",
         "--config", "--rate", "--headless", "--record", "--profile", "--set", "--frames", "--id",
-        "sim:", "replay:"}) {
+        "sim:", "replay:", "v4l2:", "--list-sensors"}) {
     EXPECT_NE(help.out.find(option), std::string::npos) << option;
   }
   const Outcome version = RunTrack({"--version"}, scratch());
   EXPECT_EQ(version.exit_status, 0);
   EXPECT_EQ(version.out.rfind("disflow_track ", 0), 0U) << version.out;
+}
+
+/// Text of a camera file and what the message must name.
+struct CameraFile {
+  const char* text;
+  const char* named;
+};
+
+class CameraFileTest : public ScratchFolderTest {};
+
+TEST_F(CameraFileTest, FileThatIsNoCamera_IsRefusedWithLineAndKey) {
+  const std::string good = "width = 320\nheight = 240\nfx = 300.0\nfy = 300.0\ncx = 160\n";
+  const CameraFile cases[] = {{"", "cy is missing"},
+                              {"cy = \"middle\"\n", ":6: cy"},
+                              {"cy = nan\n", ":6: cy"},
+                              {"cy = 120\ncolour = 1\n", ":7: colour"},
+                              {"cy = 120\ndepth_scale = 0.0\n", ":7: depth_scale"},
+                              {"cy = [1\n", ":"}};
+  for (const CameraFile& one : cases) {
+    WriteFile(Path("cam.toml"), good + one.text);
+    const Outcome outcome =
+        RunTrack({"--sensor", "v4l2:/dev/nowhere?intrinsics=" + Path("cam.toml")}, scratch());
+    EXPECT_EQ(outcome.exit_status, 2) << outcome.err;
+    EXPECT_NE(outcome.err.find("cam.toml"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find(one.named), std::string::npos) << outcome.err;
+  }
+}
+
+TEST_F(CameraFileTest, CameraThatIsNotThere_IsSaidAndListingSaysWhatIs) {
+  WriteFile(Path("cam.toml"),
+            "width = 320\nheight = 240\nfx = 300.0\nfy = 300.0\ncx = 160\ncy = 120\n");
+  const Outcome outcome =
+      RunTrack({"--sensor", "v4l2:/dev/nowhere?intrinsics=" + Path("cam.toml")}, scratch());
+  EXPECT_EQ(outcome.exit_status, 3) << outcome.err;
+  EXPECT_NE(outcome.err.find("/dev/nowhere: no such device"), std::string::npos) << outcome.err;
+  const Outcome list = RunTrack({"--list-sensors"}, scratch());
+  EXPECT_EQ(list.exit_status, 0) << list.err;
+  EXPECT_FALSE(list.out.empty());
 }
 
 }  // namespace

@@ -34,7 +34,9 @@ Fault OpenSensor(std::string_view address, Sensor& sensor) {
   if (const Fault fault = ParseUri(address, uri); !fault.ok()) return fault;
   if (uri.scheme == "replay") return OpenReplay(uri, sensor);
   if (uri.scheme == "sim") return OpenSimulation(uri, sensor);
-  return MakeFault(Status::kInvalidUri, "%s: is no kind of sensor; known: replay:DIR, sim:OBJECT",
+  return MakeFault(Status::kInvalidUri,
+                   "%s: is no kind of sensor; known: replay:DIR, sim:OBJECT and, where the program "
+                   "has cameras, v4l2:DEVICE, libcamera:CAMERA",
                    uri.scheme.c_str());
 }
 
