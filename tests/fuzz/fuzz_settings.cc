@@ -22,7 +22,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   try {
     const posix::CameraDescription camera = apps::ReadCameraFile(file.path());
-    fuzz::Require(camera.width_px > 0 && camera.height_px > 0 && camera.camera.fx >= 1.0F);
+    fuzz::Require(camera.width_px > 0 && camera.height_px > 0 && camera.camera.fx_px >= 1.0F);
   } catch (const apps::Failure& failure) {
     fuzz::Require(std::string(failure.what()).find(file.path()) == 0);
   }

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdlib>
+#include <cstring>
+
+#include "child_process.h"
+#include "disflow/posix/file_descriptor.h"
+#include "estimate_csv.h"
+#include "scratch_folder.h"
+
+namespace disflow::test {
+namespace {
+
+/// The number before `words` in a report.
+int NumberBefore(const std::string& text, const std::string& words) {
+  const std::size_t end = text.find(" " + words);
+  if (end == std::string::npos) return -1;
+  const std::size_t begin = text.find_last_not_of("0123456789", end - 1) + 1;
+  return std::stoi(text.substr(begin, end - begin));
+}
+
+class LiveTest : public ScratchFolderTest {};
+
+TEST_F(LiveTest, FramesFasterThanTheTracker_AreDroppedAndCounted) {
+  constexpr int kFrames = 200;
+  const Outcome outcome =
+      RunTrack({"--sensor", "sim:box?fps=1000&frames=" + std::to_string(kFrames), "--rate", "live",
+                "--csv", Path("run.csv")},
+               scratch());
+  ASSERT_EQ(outcome.exit_status, 0) << outcome.err;
+  const auto rows = apps::LoadEstimates(Path("run.csv"), kFrames).rows;
+  const int dropped = NumberBefore(outcome.err, "frames dropped");
+  EXPECT_GE(rows.size(), 2U);
+  EXPECT_EQ(static_cast<int>(rows.size()) + dropped, kFrames) << outcome.err;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    EXPECT_GT(rows[i].timestamp_s, rows[i - 1].timestamp_s);
+  }
+}
+
+TEST_F(LiveTest, PaceOfTheStamps_ChangesNothingAndDropsNothing) {
+  const std::string sensor = "sim:box?motion=fast&noise=d415&frames=20";
+  for (const char* rate : {"max", "realtime"}) {
+    const Outcome outcome = RunTrack({"--sensor", sensor, "--rate", rate, "--csv",
+                                      Path(std::string(rate) + ".csv"), "--no-timing"},
+                                     scratch());
+    ASSERT_EQ(outcome.exit_status, 0) << outcome.err;
+    EXPECT_EQ(NumberBefore(outcome.err, "frames dropped"), 0) << outcome.err;
+  }
+  EXPECT_EQ(ReadFile(Path("max.csv")), ReadFile(Path("realtime.csv")));
+}
+
+TEST_F(LiveTest, RefusedRequests_AreSaidAndTheRunGoesOn) {
+  const Outcome outcome = RunTrack(
+      {"--sensor", "sim:box?frames=5", "--rate", "live", "--cpu", "1000,1001", "--lock-memory"},
+      scratch());
+  EXPECT_EQ(outcome.exit_status, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("tracking thread: processor 1000"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("capture thread: processor 1001"), std::string::npos) << outcome.err;
+}
+
+TEST_F(LiveTest, StopSignal_EndsALiveRunWithEverythingWritten) {
+  ChildProcess track(
+      DISFLOW_TRACK,
+      {"--sensor", "sim:box?frames=3000", "--rate", "live", "--csv", Path("run.csv")}, scratch());
+  for (int i = 0; i < 200 && ReadFile(Path("run.csv")).size() < 4000; ++i) ::usleep(50'000);
+  track.Signal(SIGTERM);
+  const Outcome outcome = track.Wait();
+  EXPECT_EQ(outcome.exit_status, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("with a measured pose"), std::string::npos);
+  EXPECT_EQ(ReadFile(Path("run.csv")).back(), '\n');
+}
+
+/// What systemd is to a service.
+class ServiceTest : public ScratchFolderTest {
+ protected:
+  ServiceTest() : socket_(::socket(AF_UNIX, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)) {
+    sockaddr_un own{};
+    own.sun_family = AF_UNIX;
+    const std::string path = Path("notify");
+    std::memcpy(own.sun_path, path.c_str(), path.size());
+    EXPECT_EQ(::bind(socket_.get(), reinterpret_cast<const sockaddr*>(&own), sizeof(own)), 0);
+    ::setenv("NOTIFY_SOCKET", path.c_str(), 1);
+    ::setenv("WATCHDOG_USEC", "400000", 1);
+  }
+  ~ServiceTest() override {
+    ::unsetenv("NOTIFY_SOCKET");
+    ::unsetenv("WATCHDOG_USEC");
+  }
+  Arguments Received() {
+    Arguments messages;
+    std::array<char, 512> buffer{};
+    for (;;) {
+      const ssize_t size = ::recv(socket_.get(), buffer.data(), buffer.size(), 0);
+      if (size < 0) return messages;
+      messages.emplace_back(buffer.data(), static_cast<std::size_t>(size));
+    }
+  }
+
+ private:
+  posix::FileDescriptor socket_;
+};
+
+TEST_F(ServiceTest, ServiceManager_IsToldOfStartLifeStateAndEnd) {
+  const Outcome outcome =
+      RunTrack({"--sensor", "sim:box?frames=30", "--rate", "live", "--headless"}, scratch());
+  ASSERT_EQ(outcome.exit_status, 0) << outcome.err;
+  const Arguments messages = Received();
+  ASSERT_GE(messages.size(), 4U);
+  EXPECT_EQ(messages.front(), "READY=1");
+  EXPECT_EQ(messages.back(), "STOPPING=1");
+  EXPECT_GE(std::count(messages.begin(), messages.end(), "WATCHDOG=1"), 3);
+  EXPECT_TRUE(std::any_of(messages.begin(), messages.end(),
+                          [](const std::string& m) { return m.starts_with("STATUS="); }));
+}
+
+TEST_F(ServiceTest, StartThatFails_IsNeverCalledReady) {
+  EXPECT_NE(RunTrack({"--sensor", "replay:/nonexistent"}, scratch()).exit_status, 0);
+  EXPECT_TRUE(Received().empty());
+}
+
+class RunFileTest : public ScratchFolderTest {};
+
+TEST_F(RunFileTest, WholeCommandLineInTheFile_GivesTheSameRun) {
+  const std::string sensor = "sim:bottle?motion=fast&noise=d415&frames=15&width=240&height=180";
+  const Outcome typed =
+      RunTrack({"--sensor", sensor, "--csv", Path("typed.csv"), "--no-timing", "--range", "0.2,1.5",
+                "--profile", "micro", "--set", "registration.iterations=7"},
+               scratch());
+  ASSERT_EQ(typed.exit_status, 0) << typed.err;
+  WriteFile(Path("run.toml"), "[run]\nsensor = \"" + sensor + "\"\ncsv = \"" + Path("filed.csv") +
+                                  "\"\nno_timing = true\nheadless = false\nrange = [0.2, 1.5]\n"
+                                  "profile = \"micro\"\n[registration]\niterations = 7\n");
+  const Outcome filed = RunTrack({"--config", Path("run.toml")}, scratch());
+  ASSERT_EQ(filed.exit_status, 0) << filed.err;
+  EXPECT_EQ(ReadFile(Path("typed.csv")), ReadFile(Path("filed.csv")));
+  EXPECT_FALSE(ReadFile(Path("typed.csv")).empty());
+}
+
+TEST_F(RunFileTest, WhatIsTyped_WinsOverTheFile) {
+  WriteFile(Path("run.toml"), "[run]\nsensor = \"sim:box?frames=50\"\nframes = 40\n");
+  const Outcome outcome = RunTrack({"--config", Path("run.toml"), "--frames", "3"}, scratch());
+  EXPECT_EQ(outcome.exit_status, 0);
+  EXPECT_NE(outcome.err.find("3 frames in"), std::string::npos) << outcome.err;
+}
+
+TEST_F(RunFileTest, SenselessLine_IsNamedWithFileAndLine) {
+  for (const char* line :
+       {"sensr = \"sim:box\"", "rate = \"fast\"", "frames = -3", "frames = {}", "config = \"x\"",
+        "help = true", "cpu = [1, 2, 3]", "roi = [1, 2]", "sensor = [[1]]", "= 3"}) {
+    WriteFile(Path("run.toml"), std::string("[run]\n") + line + "\n");
+    const Outcome outcome = RunTrack({"--config", Path("run.toml")}, scratch());
+    EXPECT_EQ(outcome.exit_status, 2) << line;
+    EXPECT_NE(outcome.err.find("run.toml:2"), std::string::npos) << line << ": " << outcome.err;
+  }
+}
+
+#ifdef DISFLOW_COUNT_ALLOCATIONS
+/// Calls of malloc and its kin in a whole run.
+long AllocationsOf(const Arguments& arguments, const std::filesystem::path& scratch) {
+  const std::string file = scratch / "allocations";
+  ::setenv("DISFLOW_ALLOCATIONS", file.c_str(), 1);
+  ::setenv("LD_PRELOAD", DISFLOW_COUNT_ALLOCATIONS, 1);
+  const Outcome outcome = RunTrack(arguments, scratch);
+  ::unsetenv("LD_PRELOAD");
+  EXPECT_EQ(outcome.exit_status, 0) << outcome.err;
+  return std::strtol(ReadFile(file).c_str(), nullptr, 10);
+}
+
+TEST_F(LiveTest, FourTimesAsManyFrames_TakeNoMoreAllocations) {
+  // The same camera, so that its own preparations are the same; in one thread and in two.
+  for (const char* rate : {"max", "live"}) {
+    const auto run = [&](int frames) {
+      return AllocationsOf(
+          {"--sensor", "sim:box?motion=fast&noise=d415&fps=300&frames=240", "--rate", rate,
+           "--frames", std::to_string(frames), "--headless", "--link", "udp://127.0.0.1:9", "--csv",
+           "/dev/null", "--mask-stream", "/disflow-nobody-writes"},
+          scratch());
+    };
+    const long few = run(60);
+    EXPECT_GT(few, 100) << "the counter counts nothing";
+    EXPECT_EQ(run(240), few) << rate;
+  }
+}
+#endif
+
+}  // namespace
+}  // namespace disflow::test
