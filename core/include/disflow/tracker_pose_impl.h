@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "disflow/field/fast_math.h"
+#include "disflow/flow/weak_direction.h"
+#include "disflow/tracker.h"
+
+/// @file
+/// Definitions of those members of Tracker that find and judge the pose of a frame; see
+/// tracker_impl.h.
+
+namespace disflow {
+
+template <class Limits>
+typename Tracker<Limits>::Aligned Tracker<Limits>::Register(const DepthFrame& frame,
+                                                            Estimate& estimate) noexcept {
+  // Starting poses are compared on a part of the samples: they are many and need not be precise.
+  const EveryNth some(samples_, PoseSearch<Limits>::kPoints);
+  registration_.SetObservations(some, edges_);
+  const typename PoseSearch<Limits>::Prior prior{
+      T_oc_, T_oc_previous_, frame_index_ >= kFramesUntilVelocity,
+      monitor_.Doubts(frame.stamp_ns) ? monitor_.missed() + 1 : 0};
+  const auto conflict = [&](const PoseObjectFromCamera& T_oc) {
+    return AgreementWith(frame, T_oc).conflict();
+  };
+  const auto start =
+      PoseSearch<Limits>(registration_, field_, model_edges_, config_.registration, prior)
+          .Find(conflict);
+  registration_.SetObservations(samples_, edges_);
+  Aligned aligned =
+      registration_.Align(field_, model_edges_, config_.registration, start.T_oc, start.T_expected,
+                          start.robust_scale, config_.registration.iterations);
+  estimate.hypotheses = static_cast<std::uint8_t>(start.tried);
+  estimate.iterations = static_cast<std::uint8_t>(aligned.iterations);
+  estimate.inliers = static_cast<std::uint16_t>(aligned.inliers);
+  estimate.edge_inliers = static_cast<std::uint16_t>(aligned.edge_inliers);
+  estimate.rms_m = aligned.rms_m;
+  estimate.score = registration_.Score(field_, config_.registration, aligned.T_oc);
+  estimate.rejected.residuals_unmatched = static_cast<std::uint32_t>(aligned.unmatched);
+  estimate.rejected.residuals_truncated = static_cast<std::uint32_t>(aligned.truncated);
+  estimate.rejected.residuals_normal_mismatch = static_cast<std::uint32_t>(aligned.normal_mismatch);
+  return aligned;
+}
+
+/// Believes the registered pose or not, and moves the twist filter and the monitor on.
+template <class Limits>
+Status Tracker<Limits>::Conclude(const DepthFrame& frame, Status observed, const Aligned& aligned,
+                                 Estimate& estimate) noexcept {
+  TrackingMonitor::Evidence evidence;
+  PoseCovariance covariance;
+  if (aligned.solved) {
+    covariance = CovarianceOf(aligned, frame.stamp_ns);
+    const ModelAgreement agreement = AgreementWith(frame, aligned.T_oc);
+    estimate.conflict = agreement.conflict();
+    estimate.visible = agreement.visible();
+    evidence = {covariance.solved,
+                estimate.score,
+                agreement.conflict(),
+                aligned.inliers,
+                registration_.size(),
+                std::sqrt(covariance.reported.diagonal().template head<3>().maxCoeff()),
+                std::sqrt(covariance.reported.diagonal().template tail<3>().maxCoeff())};
+  }
+  const bool near = !monitor_.Doubts(frame.stamp_ns) || IsSameObjectFrame(frame, aligned.T_oc);
+  const bool accepted =
+      observed == Status::kOk && near && monitor_.Accepts(evidence, frame.stamp_ns);
+  evidence.registered = accepted;
+  monitor_.Update(evidence, frame.stamp_ns);
+  if (accepted) {
+    T_oc_ = aligned.T_oc;
+    T_oc_previous_ = T_oc_;
+    if (covariance.twist_unobserved.isZero(0.0F)) observed_ns_ = frame.stamp_ns;
+    // The twist filter sees differences between frames, in which the drift of the model cancels.
+    twist_filter_.Predict(frame.stamp_ns);
+    twist_filter_.Update(T_oc_.Inverse(), covariance.white);
+    // Along a direction that the surface hardly tells, the motion up to now says more.
+    estimate.weak = FindWeakDirection(covariance.reported, config_.monitor);
+    if (estimate.weak.kind != WeakKind::kNone) T_oc_ = twist_filter_.T_co().Inverse();
+    field_.SetGeneration(aligned.generation + 1.0F);
+    registered_covariance_ = covariance.reported;
+    estimate.pose_covariance = covariance.reported;
+    estimate.twist_covariance = twist_filter_.twist_covariance() + covariance.twist_unobserved;
+  } else {
+    Coast(frame.stamp_ns, estimate);
+  }
+  if (observed != Status::kOk) return observed;
+  return accepted ? Status::kOk : Status::kRegistrationFailed;
+}
+
+/// The pose at a constant velocity; at one that fades while the object is not seen, since what
+/// moves by hand does not keep its velocity for long. An object that left the view is expected back
+/// where it left.
+template <class Limits>
+PoseCameraFromObject Tracker<Limits>::Predict(const DepthFrame& frame) const noexcept {
+  if (!monitor_.Doubts(frame.stamp_ns)) return twist_filter_.Extrapolate(frame.stamp_ns);
+  const float gap_s = Seconds(frame.stamp_ns - twist_filter_.stamp_ns());
+  const float moved_s = kFade_s * (1.0F - FastExpNonPositive(-gap_s / kFade_s));
+  const auto moved_us = static_cast<std::int32_t>(moved_s * 1e6F);
+  PoseCameraFromObject T_co =
+      twist_filter_.Extrapolate(twist_filter_.stamp_ns() + StampNs{moved_us} * 1000);
+  const auto in_view = [&frame](const Vec3& x_c) {
+    if (!(x_c.z() > 0.0F)) return false;
+    const Vec2 px = frame.camera.Project(x_c);
+    return px.x() >= 0.0F && px.y() >= 0.0F && px.x() < static_cast<float>(frame.depth.width_px) &&
+           px.y() < static_cast<float>(frame.depth.height_px);
+  };
+  if (in_view(T_co.translation())) return T_co;
+  return {T_co.rotation(), T_oc_.Inverse().translation()};
+}
+
+/// Whether a pose that was searched for is that of the same object frame. Many things look alike
+/// from opposite sides: neither may the pose be turned far from the predicted one, nor may the
+/// object have had the time to turn over since it was last seen.
+template <class Limits>
+bool Tracker<Limits>::IsSameObjectFrame(const DepthFrame& frame,
+                                        const PoseObjectFromCamera& T_oc) const noexcept {
+  constexpr float kReach_rad = 0.7F;
+  constexpr float kFarthestTurn_rad = 1.6F;
+  const float gap_s = Seconds(frame.stamp_ns - twist_filter_.stamp_ns());
+  const Vec3 off = LogSo3(Mat3(T_oc.rotation() * T_oc_.rotation().transpose()));
+  return off.norm() <= kReach_rad &&
+         gap_s * twist_filter_.twist().angular_rps.norm() <= kFarthestTurn_rad;
+}
+
+/// What is known of the motion of an object that is not seen. The filter itself stays at the last
+/// registered frame: an acceleration measured there would carry a lost object away.
+template <class Limits>
+void Tracker<Limits>::Coast(StampNs stamp_ns, Estimate& estimate) const noexcept {
+  TwistFilter coasting = twist_filter_;
+  coasting.Predict(stamp_ns);
+  estimate.twist_covariance = coasting.twist_covariance();
+  // What it was then and what has been added since.
+  estimate.pose_covariance = registered_covariance_ + coasting.pose_covariance();
+  estimate.weak = FindWeakDirection(estimate.pose_covariance, config_.monitor);
+}
+
+/// Covariances of (origin's position, rotation) in camera axes.
+template <class Limits>
+typename Tracker<Limits>::PoseCovariance Tracker<Limits>::CovarianceOf(
+    const Aligned& aligned, StampNs stamp_ns) const noexcept {
+  constexpr float kLongest_s = 0.6F;  // a turn may then be anything
+  const PoseUncertainty uncertainty =
+      Uncertainty(aligned.information, config_.registration.gradient_std_rad);
+  const Mat3 R_co = aligned.T_oc.rotation().transpose();
+  const Vec3 to_origin_m = -aligned.center_m;
+  const auto in_camera = [&](const Mat6& covariance_o) {
+    return Moved(covariance_o, R_co, to_origin_m);
+  };
+  const auto since_s = static_cast<float>(static_cast<double>(stamp_ns - observed_ns_) * 1e-9);
+  const float unobserved_s = std::min(since_s, kLongest_s);
+
+  PoseCovariance result;
+  result.solved = uncertainty.solved;
+  result.white = config_.registration.white_noise_share * in_camera(uncertainty.covariance);
+  result.reported =
+      in_camera(WithDrift(uncertainty.covariance, aligned.generation, config_.registration));
+  if (!uncertainty.IsComplete()) {
+    result.twist_unobserved = in_camera(uncertainty.unobserved);
+    const Mat6 turned = unobserved_s * unobserved_s * result.twist_unobserved;
+    result.reported += turned;
+    result.reported.template topLeftCorner<3, 3>() += OffTangent(turned);
+  }
+  result.white.diagonal().array() += kDefinedPoseVariance;
+  result.reported.diagonal().array() += kDefinedPoseVariance;
+  return result;
+}
+
+}  // namespace disflow
