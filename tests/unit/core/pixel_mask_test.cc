@@ -130,6 +130,24 @@ TEST(ErodedMask, KeepsPixelsWhoseSquareIsSet) {
   }
 }
 
+TEST(PixelMask, Outline_IsWhatHasAnUnsetNeighbour) {
+  for (const double share : {0.02, 0.5, 0.98, 1.0}) {
+    const PlainMask plain(share, 11);
+    const Mask mask = Packed(plain);
+    for (int v = mask.box().v_min; v < mask.box().v_max; ++v) {
+      std::vector<int> expected;
+      for (int u = 0; u < kWidth_px; ++u) {
+        const bool inner = plain.Test(u - 1, v) && plain.Test(u + 1, v) && plain.Test(u, v - 1) &&
+                           plain.Test(u, v + 1);
+        if (plain.Test(u, v) && !inner) expected.push_back(u);
+      }
+      std::vector<int> found;
+      mask.ForEachOutlineInRow(v, [&](int u) { found.push_back(u); });
+      EXPECT_EQ(found, expected) << "share " << share << ", row " << v;
+    }
+  }
+}
+
 TEST(PixelMask, Closing_FillsWhatADilationFillsAndAnErosionLeaves) {
   const PlainMask plain(0.06, 3);
   Mask mask = Packed(plain);

@@ -51,14 +51,8 @@ class EdgeSampler {
 
   template <class Mask, class Visitor>
   static void ForEachOutlinePixel(const Mask& object, Visitor&& visit) noexcept {
-    const PixelBox& box = object.box();
-    for (int v = box.v_min; v < box.v_max; ++v) {
-      object.ForEachInRow(v, [&](int u) {
-        if (!object.Test(u - 1, v) || !object.Test(u + 1, v) || !object.Test(u, v - 1) ||
-            !object.Test(u, v + 1))
-          visit(u, v);
-      });
-    }
+    for (int v = object.box().v_min; v < object.box().v_max; ++v)
+      object.ForEachOutlineInRow(v, [&](int u) { visit(u, v); });
   }
 
   /// The outline near a pixel as a straight line: inward normal, and signed distance of the pixel's

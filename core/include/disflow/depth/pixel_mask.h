@@ -169,6 +169,22 @@ class PixelMask {
     for (int w = box_.u_min / kBits; w * kBits < box_.u_max; ++w) VisitBits(row(v)[w], w, visit);
   }
 
+  /// Calls visit(u) for every set pixel of row v one of whose four neighbours is not set, from left
+  /// to right. The image border counts as not set.
+  template <class Visitor>
+  void ForEachOutlineInRow(int v, Visitor&& visit) const noexcept {
+    const int w_begin = box_.u_min / kBits;
+    const int w_end = (box_.u_max + kBits - 1) / kBits;
+    Row inner;
+    for (int w = w_begin; w < w_end; ++w) inner[w] = row(v)[w];
+    inner.Neighbours(w_begin, w_end, [](Word own, Word a, Word b) { return own & a & b; });
+    const bool at_border = v == 0 || v == height_px_ - 1;
+    for (int w = w_begin; w < w_end; ++w) {
+      const Word hidden = at_border ? 0 : inner[w] & row(v - 1)[w] & row(v + 1)[w];
+      VisitBits(row(v)[w] & ~hidden, w, visit);
+    }
+  }
+
   /// visit(u) for every bit that is set in word w of a row.
   template <class Visitor>
   static void VisitBits(Word bits, int w, Visitor&& visit) noexcept {
