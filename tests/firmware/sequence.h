@@ -26,16 +26,17 @@ struct Frame {
   }
 };
 
-/// A simulated sequence, reduced to the size that the firmware takes.
+/// A simulated sequence, reduced to a size that the firmware takes.
 inline std::vector<Frame> MakeSequence(const std::string& object, const std::string& noise,
-                                       int count, int seed = 1) {
+                                       int count,
+                                       int max_width_px = firmware::Profile::kMaxImageWidth,
+                                       int max_height_px = firmware::Profile::kMaxImageHeight) {
   host::Sensor sensor;
-  const hal::Fault fault = host::OpenSensor(
-      "sim:" + object + "?motion=fast&noise=" + noise +
-          "&width=640&height=360&mask=none&seed=" + std::to_string(seed) + "&frames=300",
-      sensor);
+  const hal::Fault fault = host::OpenSensor("sim:" + object + "?motion=fast&noise=" + noise +
+                                                "&width=640&height=360&mask=none&seed=1&frames=300",
+                                            sensor);
   if (!fault.ok()) throw std::runtime_error(fault.message);
-  apps::ImageReducer reducer(firmware::Profile::kMaxImageWidth, firmware::Profile::kMaxImageHeight);
+  apps::ImageReducer reducer(max_width_px, max_height_px);
   std::vector<Frame> frames;
   DepthFrame frame;
   while (static_cast<int>(frames.size()) < count && sensor.get()->Next(1'000'000'000, frame).ok()) {

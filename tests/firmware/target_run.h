@@ -65,14 +65,15 @@ inline std::vector<std::byte> Recording(const std::vector<Frame>& frames, std::s
 }
 
 /// What the firmware's tracker makes of a sequence when it is built for the host.
-inline std::vector<PoseCameraFromObject> TrackOnHost(const std::vector<Frame>& frames) {
+inline std::vector<PoseCameraFromObject> TrackOnHost(
+    const std::vector<Frame>& frames, const std::string& program = DISFLOW_HOST_REFERENCE) {
   const std::filesystem::path packets = std::filesystem::temp_directory_path() /
                                         ("disflow-packets-" + std::to_string(::getpid()) + ".bin");
   const std::vector<std::byte> bytes = Recording(frames, frames.size());
   std::ofstream(packets, std::ios::binary)
       .write(reinterpret_cast<const char*>(bytes.data()),
              static_cast<std::streamsize>(bytes.size()));
-  const std::string command = std::string(DISFLOW_HOST_REFERENCE) + " < " + packets.string();
+  const std::string command = program + " < " + packets.string();
   std::FILE* const pipe = ::popen(command.c_str(), "r");
   std::vector<PoseCameraFromObject> poses;
   std::array<float, 7> v{};

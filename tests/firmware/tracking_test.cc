@@ -44,15 +44,29 @@ struct Case {
 
 class SequenceTest : public ::testing::TestWithParam<Case> {};
 
+double TrackedAddAuc(const Case& what, const std::vector<Frame>& frames,
+                     const std::string& program) {
+  const auto model =
+      std::string(what.object) == "box" ? host::MakeCrackerBox() : host::MakeMustardBottle();
+  return AddAuc(frames, TrackOnHost(frames, program), model);
+}
+
 TEST_P(SequenceTest, MicroProfile_TracksWithAddAucOf95OrMore) {
   const auto [object, noise] = GetParam();
   const std::vector<Frame> frames = MakeSequence(object, noise, kWhole);
   ASSERT_EQ(frames.size(), std::size_t{kWhole});
-  const std::vector<PoseCameraFromObject> host = TrackOnHost(frames);
-  const auto model =
-      std::string(object) == "box" ? host::MakeCrackerBox() : host::MakeMustardBottle();
-  const double auc = AddAuc(frames, host, model);
+  const double auc = TrackedAddAuc(GetParam(), frames, DISFLOW_HOST_REFERENCE);
   std::printf("%s %s, Micro: ADD-AUC %.2f\n", object, noise, auc);
+  EXPECT_GE(auc, 95.0);
+}
+
+TEST_P(SequenceTest, SmallProfile_TracksWithAddAucOf95OrMore) {
+  const auto [object, noise] = GetParam();
+  const std::vector<Frame> frames = MakeSequence(
+      object, noise, kWhole, firmware::Small::kMaxImageWidth, firmware::Small::kMaxImageHeight);
+  const double auc =
+      TrackedAddAuc(GetParam(), frames, std::string(DISFLOW_HOST_REFERENCE) + "_small");
+  std::printf("%s %s, Small: ADD-AUC %.2f\n", object, noise, auc);
   EXPECT_GE(auc, 95.0);
 }
 
