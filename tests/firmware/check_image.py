@@ -18,7 +18,7 @@ FORBIDDEN = re.compile(
     r'^(malloc|calloc|realloc|free|_malloc_r|_free_r|_realloc_r|_calloc_r|_sbrk|_sbrk_r|sbrk|'
     r'_Zn[wa]\w*|_Zd[la]\w*|__cxa_\w+|_Unwind_\w+|__gxx_\w+|\w*printf\w*|abort|exit|atexit|__aeabi_atexit)$')
 # Double precision by software: arithmetic, comparisons and conversions.
-DOUBLE = re.compile(r'^__aeabi_(d\w+|cd\w+|f2d|i2d|ui2d|l2d|ul2d)$|^__\w+df\w*$')
+DOUBLE = re.compile(r'^__aeabi_(d\w+|cd\w+|f2d|i2d|ui2d|l2d|ul2d)$')
 # Checks the settings once, when the tracker is made.
 MAY_USE_DOUBLE = re.compile(r'^(void )?disflow::(Validate\(|.*VisitFields<.*Validate\()')
 
