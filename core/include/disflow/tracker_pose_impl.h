@@ -146,7 +146,7 @@ typename Tracker<Limits>::PoseCovariance Tracker<Limits>::CovarianceOf(
   const auto in_camera = [&](const Mat6& covariance_o) {
     return Moved(covariance_o, R_co, to_origin_m);
   };
-  const auto since_s = static_cast<float>(static_cast<double>(stamp_ns - observed_ns_) * 1e-9);
+  const float since_s = Seconds(stamp_ns - observed_ns_);
   const float unobserved_s = std::min(since_s, kLongest_s);
 
   PoseCovariance result;
