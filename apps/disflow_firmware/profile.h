@@ -38,6 +38,8 @@ using Profile = profiles::Micro;
 [[nodiscard]] inline Config FirmwareConfig() noexcept {
   Config config;
   config.sampler.border_px = 1;
+  // Outlines this coarse agree with few of the model's edges, and are needed all the same.
+  config.registration.edge_agreement = 0.0F;
   return config;
 }
 

@@ -10,7 +10,7 @@ FREESTANDING = {'atomic', 'bit', 'cfloat', 'climits', 'compare', 'concepts', 'cs
                 'limits', 'new', 'source_location', 'type_traits', 'version'}
 # Not so by the standard, but of what is used of them nothing needs a heap, exceptions or a system.
 TEMPLATES = {'algorithm', 'array', 'cassert', 'cmath', 'cstring', 'iterator', 'span', 'string_view', 'utility'}
-EIGEN = {'Eigen/Cholesky', 'Eigen/Core', 'Eigen/Eigenvalues', 'Eigen/Geometry'}
+EIGEN = {'Eigen/Cholesky', 'Eigen/Core', 'Eigen/Eigenvalues', 'Eigen/Geometry', 'Eigen/Jacobi'}
 ALLOWED = {
     'core': FREESTANDING | TEMPLATES | EIGEN,
     # Texts of faults (vsnprintf) and addresses (from_chars) are for programs: firmware does not link them.

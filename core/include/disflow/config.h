@@ -76,6 +76,7 @@ struct RegistrationConfig {
   float temporal_std_m = 0.005F;
   float temporal_std_rad = 0.03F;
   float edge_std_px = 0.3F;
+  float edge_agreement = 0.8F;
   float hypothesis_score = 0.75F;
   int hypothesis_iterations = 3;
   int score_points = 120;

@@ -130,6 +130,10 @@ constexpr void VisitFields(ConfigType& config, Visitor&& visitor) {
         "expected deviation from the predicted rotation");
   field("registration.edge_std_px", reg.edge_std_px, 0.1, 100.0, "px",
         "noise of an occluding edge in the image");
+  field(
+      "registration.edge_agreement", reg.edge_agreement, 0.0, 1.0, "1",
+      "occluding edges count less when a smaller share of a frame's edges agrees with the model's; "
+      "0 = always in full");
   field("registration.hypothesis_score", reg.hypothesis_score, 0.0, 1.0, "1",
         "below this score more starting poses are tried");
   field("registration.hypothesis_iterations", reg.hypothesis_iterations, 1, 20, "1",

@@ -73,9 +73,7 @@ Status Tracker<Limits>::Conclude(const DepthFrame& frame, Status observed, const
     // The twist filter sees differences between frames, in which the drift of the model cancels.
     twist_filter_.Predict(frame.stamp_ns);
     twist_filter_.Update(T_oc_.Inverse(), covariance.white);
-    // Along a direction that the surface hardly tells, the motion up to now says more.
     estimate.weak = FindWeakDirection(covariance.reported, config_.monitor);
-    if (estimate.weak.kind != WeakKind::kNone) T_oc_ = twist_filter_.T_co().Inverse();
     field_.SetGeneration(aligned.generation + 1.0F);
     registered_covariance_ = covariance.reported;
     estimate.pose_covariance = covariance.reported;

@@ -167,12 +167,10 @@ class Registration {
 
   /// How far the edges of a frame are believed: edges that were seen for the first time agree with
   /// wrong ones here and there, and can shift a face that nothing else holds.
-  [[nodiscard]] float EdgeTrust(int agreeing) const noexcept {
-    constexpr float kMostAgree = 0.8F;
-    if (edges_->empty()) return 1.0F;
-    const float share =
-        static_cast<float>(agreeing) / (kMostAgree * static_cast<float>(edges_->size()));
-    return share < 1.0F ? share * share : 1.0F;
+  [[nodiscard]] float EdgeTrust(float expected_share, int agreeing) const noexcept {
+    const float expected = expected_share * static_cast<float>(edges_->size());
+    const auto found = static_cast<float>(agreeing);
+    return found < expected ? found * found / (expected * expected) : 1.0F;
   }
 
   /// T <- exp(xi) T, with the rotation about a centre instead of the origin: better conditioned in
@@ -203,7 +201,7 @@ class Registration {
     result.information.total = equations.h;
     result.inliers = equations.inliers;
     result.edge_inliers = equations.edge_inliers;
-    result.edge_trust = EdgeTrust(equations.edge_inliers);
+    result.edge_trust = EdgeTrust(config.edge_agreement, equations.edge_inliers);
     result.generation = equations.generation_sum / std::fmax(equations.weight_sum, 1e-9F);
     result.rms_m =
         std::sqrt(equations.weighted_square_sum / std::fmax(equations.weight_sum, 1e-9F));
