@@ -208,8 +208,7 @@ void Tracker<Limits>::FuseObservations(Estimate& estimate) noexcept {
                         estimate.rejected);  // the outcome is in the counters
   }
   for (const EdgePoint& point : edges_) {
-    const EdgePoint moved{T_oc_ * point.position_m, R_oc * point.direction, R_oc * point.normal,
-                          R_oc * point.ray, point.pixel_m};
+    const EdgePoint moved = T_oc_ * point;
     if (IsForeign(moved.position_m)) continue;
     model_edges_.Insert(moved, config_.field.merge_radius_m, estimate.rejected);
   }

@@ -3,16 +3,16 @@
 // threads, and writes their number into the file that DISFLOW_ALLOCATIONS names when the program
 // ends.
 #include <atomic>
-#include <cerrno>
-#include <cstddef>
 #include <cstdio>
 #include <cstdlib>
+
+#include "counted_malloc.h"
 
 namespace {
 
 std::atomic<long> calls{0};
 
-void Count() { calls.fetch_add(1, std::memory_order_relaxed); }
+void CountAllocation() { calls.fetch_add(1, std::memory_order_relaxed); }
 
 [[gnu::destructor]] void WriteNumber() {
   const long number = calls;
@@ -24,37 +24,3 @@ void Count() { calls.fetch_add(1, std::memory_order_relaxed); }
 }
 
 }  // namespace
-
-// glibc lets others define these; its own versions stay reachable under other names.
-extern "C" {
-void* __libc_malloc(std::size_t);
-void* __libc_calloc(std::size_t, std::size_t);
-void* __libc_realloc(void*, std::size_t);
-void* __libc_memalign(std::size_t, std::size_t);
-
-void* malloc(std::size_t size) {
-  Count();
-  return __libc_malloc(size);
-}
-void* calloc(std::size_t count, std::size_t size) {
-  Count();
-  return __libc_calloc(count, size);
-}
-void* realloc(void* block, std::size_t size) {
-  Count();
-  return __libc_realloc(block, size);
-}
-void* memalign(std::size_t alignment, std::size_t size) {
-  Count();
-  return __libc_memalign(alignment, size);
-}
-void* aligned_alloc(std::size_t alignment, std::size_t size) {
-  Count();
-  return __libc_memalign(alignment, size);
-}
-int posix_memalign(void** block, std::size_t alignment, std::size_t size) {
-  Count();
-  *block = __libc_memalign(alignment, size);
-  return *block == nullptr ? ENOMEM : 0;
-}
-}

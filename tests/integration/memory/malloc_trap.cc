@@ -2,8 +2,10 @@
 #include "malloc_trap.h"
 
 #include <atomic>
-#include <cerrno>
-#include <cstddef>
+
+#ifndef DISFLOW_SANITIZED
+#include "counted_malloc.h"
+#endif
 
 namespace {
 
@@ -11,7 +13,7 @@ std::atomic<bool> armed{false};
 std::atomic<long> calls{0};
 
 #ifndef DISFLOW_SANITIZED
-void Count() {
+void CountAllocation() {
   if (armed.load(std::memory_order_relaxed)) calls.fetch_add(1, std::memory_order_relaxed);
 }
 #endif
@@ -19,41 +21,11 @@ void Count() {
 }  // namespace
 
 #ifndef DISFLOW_SANITIZED
-// glibc lets a program define these; its own versions stay reachable under other names.
 extern "C" {
-void* __libc_malloc(std::size_t);
-void* __libc_calloc(std::size_t, std::size_t);
-void* __libc_realloc(void*, std::size_t);
-void* __libc_memalign(std::size_t, std::size_t);
 void __libc_free(void*);
 
-void* malloc(std::size_t size) {
-  Count();
-  return __libc_malloc(size);
-}
-void* calloc(std::size_t count, std::size_t size) {
-  Count();
-  return __libc_calloc(count, size);
-}
-void* realloc(void* block, std::size_t size) {
-  Count();
-  return __libc_realloc(block, size);
-}
-void* memalign(std::size_t alignment, std::size_t size) {
-  Count();
-  return __libc_memalign(alignment, size);
-}
-void* aligned_alloc(std::size_t alignment, std::size_t size) {
-  Count();
-  return __libc_memalign(alignment, size);
-}
-int posix_memalign(void** block, std::size_t alignment, std::size_t size) {
-  Count();
-  *block = __libc_memalign(alignment, size);
-  return *block == nullptr ? ENOMEM : 0;
-}
 void free(void* block) {
-  Count();
+  CountAllocation();
   __libc_free(block);
 }
 }

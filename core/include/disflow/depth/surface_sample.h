@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "disflow/geometry/transform.h"
 #include "disflow/types.h"
 
 namespace disflow {
@@ -24,5 +25,13 @@ struct EdgePoint {
   Vec3 ray = Vec3::Zero();        ///< Unit viewing direction.
   float pixel_m = 0.0F;           ///< Width of one pixel at this depth.
 };
+
+/// An edge of the camera frame in the object frame.
+[[nodiscard]] inline EdgePoint operator*(const PoseObjectFromCamera& T_oc,
+                                         const EdgePoint& point) noexcept {
+  const Mat3& r = T_oc.rotation();
+  return {T_oc * point.position_m, r * point.direction, r * point.normal, r * point.ray,
+          point.pixel_m};
+}
 
 }  // namespace disflow

@@ -25,9 +25,7 @@ template <class EdgeMapType, class ModelEdge = typename EdgeMapType::Edge>
                                                const PoseObjectFromCamera& T_oc, float radius_m,
                                                const ModelEdge* known = nullptr) noexcept {
   constexpr float kFewestSine = 0.3F;
-  const Mat3& r = T_oc.rotation();
-  const EdgePoint moved{T_oc * point.position_m, r * point.direction, r * point.normal,
-                        r * point.ray, point.pixel_m};
+  const EdgePoint moved = T_oc * point;
   EdgeResidual<ModelEdge> result;
   const auto* edge = known != nullptr ? known : model_edges.FindNearest(moved, radius_m);
   if (edge == nullptr) return result;
