@@ -15,6 +15,8 @@ class FlowCloud final : public FlowSink {
   /// The colours' scale: the brightest stands for this speed and all above.
   static constexpr float kBrightest_mps = 0.5F;
 
+  /// So that as many samples come without an allocation.
+  void Reserve(std::size_t samples) { samples_.reserve(samples); }
   void Clear() noexcept { samples_.clear(); }
   [[nodiscard]] const std::vector<FlowSample>& samples() const noexcept { return samples_; }
 

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "run.h"
 
-#include <algorithm>
-
 #include "console.h"
 #include "disflow/distance_flow.h"
 #include "disflow/posix/monotonic_clock.h"
 #include "disflow/tracker.h"
 #include "frame_feed.h"
+#include "object_channel.h"
 #include "outputs.h"
 #include "run_report.h"
 #include "sensor_choice.h"
@@ -23,23 +22,14 @@ using posix::MonotonicClock;
 
 std::int64_t ReadClock(void* context) { return static_cast<MonotonicClock*>(context)->NowNs(); }
 
-SurfaceOptions MeshOptions(const Options& options) {
-  const FieldConfig& field = options.config.field;
-  SurfaceOptions surface;
-  // Finer than the model's own detail is waste, coarser loses it.
-  surface.resolution_m = options.mesh_resolution_m > 0.0
-                             ? static_cast<float>(options.mesh_resolution_m)
-                             : field.cell_size_m / 10.0F;
-  surface.support_radius_m = 1.6F * field.merge_radius_m;
-  return surface;
-}
-
 template <class Limits>
 void WriteMesh(const DistanceField<Limits>& field, const Options& options, Outputs& outputs) {
   static SurfaceWorkspace<Limits> workspace;  // too large for a stack
   SurfaceMesh mesh;
   // An empty model gives an empty mesh, which is said there.
-  (void)ExtractSurface(field, MeshOptions(options), workspace, mesh);
+  (void)ExtractSurface(
+      field, DrawingOptions(options.config.field, static_cast<float>(options.mesh_resolution_m)),
+      workspace, mesh);
   outputs.WriteMesh(mesh);
 }
 
@@ -64,7 +54,8 @@ class TrackingRun {
         info_(sensor_.get()->info()),
         inputs_(options, info_),
         outputs_(options, console_, inputs_.camera_poses()),
-        source_(*sensor_.get(), clock_, options.rate, options.frames, console_) {}
+        source_(*sensor_.get(), clock_, options.rate, options.frames, console_),
+        channel_("object", options.object_index, ObjectChannel::NewSnapshot<Limits>) {}
 
   [[nodiscard]] ExitStatus Run() {
     const std::int64_t begin_ns = clock_.NowNs();
@@ -102,6 +93,10 @@ class TrackingRun {
     LockProcessMemory(options_.realtime, console_);
     service_.Ready();
     for (;;) {
+      if (channel_.paused() && !StopRequested()) {
+        Rest();
+        continue;
+      }
       const FrameFeed::Turn turn = feed.Next(frame_);
       if (turn.event == FrameSource::Event::kEnd) return;
       if (turn.event == FrameSource::Event::kIdle) {
@@ -111,6 +106,15 @@ class TrackingRun {
       }
       service_.Turn(result_, turn.source_is_alive, clock_.NowNs());
     }
+  }
+
+  /// While somebody has paused the run: all stay informed that it lives.
+  void Rest() {
+    constexpr std::int64_t kRest_ns = 20'000'000;
+    const std::int64_t now_ns = clock_.NowNs();
+    clock_.SleepUntilNs(now_ns + kRest_ns);
+    outputs_.KeepAlive(now_ns);
+    service_.Turn(result_, /*source_is_alive=*/true, now_ns);
   }
 
   void Take(const FrameFeed::Turn& turn) {
@@ -126,6 +130,7 @@ class TrackingRun {
     }
     const std::int64_t now_ns = clock_.NowNs();
     outputs_.Deliver(result_, readable ? &frame_ : nullptr, source_.AgeNs(frame_.stamp_ns), now_ns);
+    channel_.Offer(tracker_, result_, readable ? &frame_ : nullptr);
     report_.Add(result_);
     console_.Show(result_, now_ns);
     ++result_.frame;
@@ -135,6 +140,7 @@ class TrackingRun {
     const StageClock stage_clock = options_.timing ? StageClock{ReadClock, &clock_} : StageClock{};
     const std::int64_t begin_ns = clock_.NowNs();
     outputs_.Receive(begin_ns);
+    if (channel_.TakeReset()) tracker_.Reset();
     inputs_.Attach(frame_, console_);
     (void)tracker_.Process(frame_, result_.estimate, stage_clock);  // the estimate carries it
     result_.total_ns = clock_.NowNs() - begin_ns;
@@ -175,6 +181,7 @@ class TrackingRun {
   Outputs outputs_;
   FrameSource source_;
   ServiceStatus service_;
+  ObjectChannel channel_;
   DepthFrame frame_;
   FrameResult result_;
   RunReport report_;

@@ -61,6 +61,10 @@ class Tracker {
   [[nodiscard]] const typename SurfaceSampler<Limits>::Samples& last_samples() const noexcept {
     return samples_;
   }
+  /// Pixels of that frame that were taken for the object.
+  [[nodiscard]] const typename Segmenter<Limits>::Mask& last_mask() const noexcept {
+    return object_mask_;
+  }
   /// Sums of Estimate::rejected since construction, saturating.
   [[nodiscard]] const Counters& totals() const noexcept { return totals_; }
 
