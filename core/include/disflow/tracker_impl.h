@@ -115,6 +115,8 @@ Status Tracker<Limits>::Observe(const DepthFrame& frame, Estimate& estimate,
   last_stamp_ns_ = frame.stamp_ns;
   samples_.clear();
   edges_.clear();
+  // Whatever lies there may be another object.
+  if (!started_ && frame.mask.label != 0 && !frame.mask.given()) return Status::kEmptyMask;
   ModelPrior prior;
   if (started_) {
     const bool doubtful = monitor_.Doubts(frame.stamp_ns);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <random>
 #include <vector>
 
@@ -64,6 +65,27 @@ TEST(PixelMask, Bytes_BecomeTheSamePixels) {
     }
   }
   EXPECT_EQ(mask.count(), count);
+}
+
+TEST(PixelMask, BytesOfALabel_AreThePixelsOfThatValueOnly) {
+  std::mt19937 random(2);
+  // Neighbours in value differ in one bit or carry into the next byte if compared carelessly.
+  constexpr std::array<std::uint8_t, 7> kValues = {0, 1, 2, 3, 127, 128, 255};
+  std::vector<std::uint8_t> bytes(kWidth_px);
+  for (auto& byte : bytes) byte = kValues[random() % kValues.size()];
+  for (const std::uint8_t label : {1, 2, 3, 127, 128, 255, 77}) {
+    for (const auto& [begin, end] : {std::pair{0, kWidth_px}, {5, 140}, {64, 128}, {70, 75}}) {
+      Mask mask;
+      mask.Start(kWidth_px, kHeight_px);
+      mask.SetFromBytes(3, begin, end, bytes.data(), label);
+      mask.Finish();
+      for (int u = 0; u < kWidth_px; ++u) {
+        const bool wanted =
+            u >= begin && u < end && bytes[static_cast<std::size_t>(u)] == label;
+        ASSERT_EQ(mask.Test(u, 3), wanted) << u << ", label " << int{label};
+      }
+    }
+  }
 }
 
 TEST(PixelMask, PartOfARow_LeavesTheRestUnset) {

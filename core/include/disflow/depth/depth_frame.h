@@ -38,13 +38,16 @@ struct DepthView {
   }
 };
 
-/// Non-owning view of an 8-bit mask; a pixel that is not 0 belongs to the object. No data pointer =
-/// no mask given.
+/// Non-owning view of an 8-bit mask. No data pointer = no mask given.
 struct MaskView {
   const std::uint8_t* data = nullptr;
   int width_px = 0;
   int height_px = 0;
   std::ptrdiff_t stride_bytes = 0;
+  /// Which pixels are the object: those of this value; 0 = all that are not 0. One mask can so show
+  /// several objects. A label without data says that the object has a mask, but not with this
+  /// frame: its known surface is tracked on, but nothing is taken for it before it was seen.
+  std::uint8_t label = 0;
 
   [[nodiscard]] bool given() const noexcept { return data != nullptr; }
   [[nodiscard]] const std::uint8_t* row(int v) const noexcept {

@@ -98,16 +98,15 @@ class PixelMask {
   [[nodiscard]] Row& row(int v) noexcept { return rows_[static_cast<std::size_t>(v)]; }
   [[nodiscard]] const Row& row(int v) const noexcept { return rows_[static_cast<std::size_t>(v)]; }
 
-  /// Marks the pixels of [u_begin, u_end) in row v that are not 0 in a row of bytes.
-  void SetFromBytes(int v, int u_begin, int u_end, const std::uint8_t* bytes) noexcept {
-    int u = u_begin;
-    for (; u < u_end && u % kBits != 0; ++u) SetBit(v, u, bytes[u] != 0);
-    for (; u + kBits <= u_end; u += kBits) {
-      Word bits = 0;
-      for (int i = 0; i < kBits; i += 8) bits |= NonZeroBytes(bytes + u + i) << i;
-      row(v)[u / kBits] = bits;
+  /// Marks the pixels of [u_begin, u_end) in row v that are `label` in a row of bytes.
+  /// @param label 0: those that are not 0.
+  void SetFromBytes(int v, int u_begin, int u_end, const std::uint8_t* bytes,
+                    std::uint8_t label = 0) noexcept {
+    if (label == 0) {
+      SetBytesThat<false>(v, u_begin, u_end, bytes, 0);
+    } else {
+      SetBytesThat<true>(v, u_begin, u_end, bytes, label);
     }
-    for (; u < u_end; ++u) SetBit(v, u, bytes[u] != 0);
   }
 
   /// To be called after the last change of a row: finds the box and the number of pixels.
@@ -210,21 +209,41 @@ class PixelMask {
   }
 
  private:
+  /// Marks what equals the value, or what differs from it.
+  template <bool kEqual>
+  void SetBytesThat(int v, int u_begin, int u_end, const std::uint8_t* bytes,
+                    std::uint8_t value) noexcept {
+    const auto wanted = [value](std::uint8_t byte) { return (byte == value) == kEqual; };
+    int u = u_begin;
+    for (; u < u_end && u % kBits != 0; ++u) SetBit(v, u, wanted(bytes[u]));
+    for (; u + kBits <= u_end; u += kBits) {
+      Word bits = 0;
+      for (int i = 0; i < kBits; i += 8) {
+        bits |= DifferingBytes<kEqual>(bytes + u + i, value) << i;
+      }
+      row(v)[u / kBits] = kEqual ? ~bits : bits;
+    }
+    for (; u < u_end; ++u) SetBit(v, u, wanted(bytes[u]));
+  }
+
   void SetBit(int v, int u, bool on) noexcept {
     if (on) row(v)[u / kBits] |= Word{1} << (u % kBits);
   }
 
-  /// Eight bytes as eight bits, 1 where a byte is not 0.
-  [[nodiscard]] static Word NonZeroBytes(const std::uint8_t* bytes) noexcept {
+  /// Eight bytes as eight bits, 1 where a byte is not the value.
+  /// @tparam kHasValue false: the value is 0.
+  template <bool kHasValue>
+  [[nodiscard]] static Word DifferingBytes(const std::uint8_t* bytes, std::uint8_t value) noexcept {
     if constexpr (std::endian::native == std::endian::little) {
       constexpr Word kLow7 = 0x7F7F7F7F7F7F7F7FULL;
       Word word = 0;
       std::memcpy(&word, bytes, sizeof word);
+      if constexpr (kHasValue) word ^= Word{value} * 0x0101010101010101ULL;
       const Word top_bits = (((word & kLow7) + kLow7) | word) & ~kLow7;
       return ((top_bits >> 7) * 0x0102040810204080ULL) >> 56;
     } else {
       Word bits = 0;
-      for (int i = 0; i < 8; ++i) bits |= Word{bytes[i] != 0} << i;
+      for (int i = 0; i < 8; ++i) bits |= Word{bytes[i] != value} << i;
       return bits;
     }
   }

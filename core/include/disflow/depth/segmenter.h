@@ -56,7 +56,7 @@ class Segmenter {
 
   static void CopyMask(const MaskView& given, const PixelBox& box, Mask& object) noexcept {
     for (int v = box.v_min; v < box.v_max; ++v)
-      object.SetFromBytes(v, box.u_min, box.u_max, given.row(v));
+      object.SetFromBytes(v, box.u_min, box.u_max, given.row(v), given.label);
     object.Finish();
   }
 
