@@ -53,14 +53,16 @@ void Console::Say(const std::string& message) noexcept {
   Write("\n");
 }
 
-void Console::Show(const FrameResult& result, std::int64_t now_ns) noexcept {
+void Console::Show(std::span<const FrameResult> results, std::int64_t now_ns) noexcept {
   if (!live_line_) return;
   if (painted_ns_ == 0) painted_ns_ = now_ns;
   ++frames_;
-  total_ns_ += result.total_ns;
-  for (std::size_t i = 0; i < stage_ns_.size(); ++i) stage_ns_[i] += result.estimate.stage_ns[i];
+  for (const FrameResult& result : results) {
+    total_ns_ += result.total_ns;
+    for (std::size_t i = 0; i < stage_ns_.size(); ++i) stage_ns_[i] += result.estimate.stage_ns[i];
+  }
   if (now_ns - painted_ns_ < kPaintInterval_ns) return;
-  Paint(result, static_cast<double>(now_ns - painted_ns_) * 1e-9);
+  Paint(results, static_cast<double>(now_ns - painted_ns_) * 1e-9);
   painted_ns_ = now_ns;
   frames_ = 0;
   total_ns_ = 0;
@@ -82,10 +84,9 @@ void Console::Write(std::string_view text) noexcept {
   (void)std::fflush(stderr);
 }
 
-void Console::Paint(const FrameResult& result, double seconds) noexcept {
+void Console::Paint(std::span<const FrameResult> results, double seconds) noexcept {
   const std::lock_guard lock(mutex_);
-  const Estimate& estimate = result.estimate;
-  std::array<char, 512> text{};
+  std::array<char, 1024> text{};
   std::size_t size = 0;
   const auto add = [&text, &size](const char* format, auto... values) {
     const int length = std::snprintf(text.data() + size, text.size() - size, format, values...);
@@ -94,11 +95,16 @@ void Console::Paint(const FrameResult& result, double seconds) noexcept {
   const auto mean_ms = [this](std::int64_t sum_ns) {
     return static_cast<double>(sum_ns) * 1e-6 / frames_;
   };
-  add("%sframe %lld  %.1f/s  %s%s\033[0m  quality %d  %.3f m/s  %.1f deg/s  %.2f ms (", kBeginLine,
-      static_cast<long long>(result.frame), frames_ / seconds, Colour(estimate.state),
-      Name(estimate.state), estimate.quality, static_cast<double>(estimate.twist.linear_mps.norm()),
-      static_cast<double>(estimate.twist.angular_rps.norm()) * kDegreesPerRadian,
-      mean_ms(total_ns_));
+  add("%sframe %lld  %.1f/s", kBeginLine, static_cast<long long>(results.front().frame),
+      frames_ / seconds);
+  for (const FrameResult& result : results) {
+    const Estimate& estimate = result.estimate;
+    add("  %s%s\033[0m  quality %d  %.3f m/s  %.1f deg/s", Colour(estimate.state),
+        Name(estimate.state), estimate.quality,
+        static_cast<double>(estimate.twist.linear_mps.norm()),
+        static_cast<double>(estimate.twist.angular_rps.norm()) * kDegreesPerRadian);
+  }
+  add("  %.2f ms (", mean_ms(total_ns_));
   for (std::size_t i = 0; i < stage_ns_.size(); ++i) {
     add("%s%s %.2f", i > 0 ? ", " : "", Name(static_cast<Stage>(i)), mean_ms(stage_ns_[i]));
   }

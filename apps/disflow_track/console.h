@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -29,11 +30,12 @@ class Console {
   /// One line with the program's name ahead.
   void Say(const std::string& message) noexcept;
   /// Shows the frame, if the last one was shown a while ago.
-  void Show(const FrameResult& result, std::int64_t now_ns) noexcept;
+  /// @param results One per object.
+  void Show(std::span<const FrameResult> results, std::int64_t now_ns) noexcept;
   void ClearLine() noexcept;
 
  private:
-  void Paint(const FrameResult& result, double seconds) noexcept;
+  void Paint(std::span<const FrameResult> results, double seconds) noexcept;
   void Write(std::string_view text) noexcept;
 
   bool live_line_;

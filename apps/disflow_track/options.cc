@@ -12,6 +12,7 @@
 #include "disflow/posix/mask_stream.h"
 #include "disflow/surface_extractor.h"
 #include "exit_status.h"
+#include "object_list.h"
 #include "sensor_choice.h"
 #include "settings.h"
 
@@ -19,7 +20,7 @@ namespace disflow::apps {
 namespace {
 
 constexpr const char* kDescription =
-    "Tracks and reconstructs one unknown rigid object in a stream of depth images.";
+    "Tracks and reconstructs unknown rigid objects in a stream of depth images.";
 
 constexpr const char* kLinksAndStatus =
     "\n"
@@ -52,6 +53,8 @@ struct SettingSources {
   std::vector<int> roi_px;
   std::vector<float> range_m;
   std::vector<int> seed_px;
+  std::vector<std::string> objects;
+  CommonObjectOptions common;
 };
 
 void AddInput(CLI::App& app, Options& options, SettingSources& settings) {
@@ -97,6 +100,16 @@ void AddObject(CLI::App& app, Options& options, SettingSources& settings) {
       ->delimiter(',')
       ->expected(2)
       ->type_name("U,V");
+  app.add_option("--object", settings.objects,
+                 "One of several objects, each told by the value of its pixels in the mask or by "
+                 "its own seed or region, e.g. name=box,label=1 or name=can,seed=320:180; may be "
+                 "repeated; in place of [[object]] in --config, see docs/several-objects.md")
+      ->type_name("KEY=VALUE,...")
+      ->allow_extra_args(false);
+  app.add_option("--threads", options.threads,
+                 "Threads that share out the objects [as many as objects and processors]")
+      ->check(CLI::Range(1, static_cast<int>(kMaxObjects)).description(""))
+      ->type_name("N");
   app.add_option("--mask-stream", options.mask_stream,
                  "Masks that another process writes: shared memory /NAME or file:PATH, see "
                  "docs/masks.md")
@@ -133,23 +146,30 @@ void AddRealtime(CLI::App& app, RealtimeOptions& realtime) {
                  "Run before all ordinary programs: SCHED_FIFO, 1 to 98")
       ->check(CLI::Range(1, 98).description(""))
       ->type_name("N");
-  app.add_option("--cpu", realtime.cpus, "Processors of the tracking and of the capture thread")
+  app.add_option(
+         "--cpu", realtime.cpus,
+         "Processors of the tracking and of the capture thread, then of those that help with "
+         "several objects")
       ->delimiter(',')
-      ->expected(1, 2)
-      ->type_name("N[,N]");
+      ->expected(1, 1 + static_cast<int>(kMaxObjects))
+      ->type_name("N[,N...]");
   app.add_flag("--lock-memory", realtime.lock_memory, "Keep all memory in RAM");
 }
 
-void AddOutput(CLI::App& app, Options& options) {
+void AddOutput(CLI::App& app, Options& options, CommonObjectOptions& objects) {
   app.add_option("--link", options.links, "Send pose, twist and status there; may be repeated")
       ->type_name("URI")
       ->allow_extra_args(false);
-  app.add_option("--id", options.object_index,
-                 "Object index on the links, added to the component id [0]")
+  app.add_option("--id", objects.first_index,
+                 "Object index on the links, added to the component id; of the first of several "
+                 "[0]")
       ->check(CLI::Range(0, int{hal::mavlink::kMaxObjectIndex}).description(""))
       ->type_name("N");
-  app.add_option("--csv", options.csv, "Write the trajectory")->type_name("FILE");
-  app.add_option("--mesh", options.mesh,
+  app.add_option("--csv", objects.files.csv,
+                 "Write the trajectory; with several objects a file each: run.csv of the object "
+                 "box is run-box.csv, and so with all that follows")
+      ->type_name("FILE");
+  app.add_option("--mesh", objects.files.mesh,
                  "Write the surface at the end: binary PLY, coloured by uncertainty (dark = "
                  "certain), std_m in metres; OBJ if the name ends in .obj")
       ->type_name("FILE");
@@ -158,10 +178,10 @@ void AddOutput(CLI::App& app, Options& options) {
                  "(field.cell_size_m) [a tenth of it]")
       ->check(CLI::Validator(CLI::PositiveNumber).description(""))
       ->type_name("METRES");
-  app.add_option("--mesh-picture", options.mesh_picture,
+  app.add_option("--mesh-picture", objects.files.mesh_picture,
                  "Draw the surface at the end: PNG, from the first camera, right, behind and above")
       ->type_name("FILE");
-  app.add_option("--flow", options.flow,
+  app.add_option("--flow", objects.files.flow,
                  "Write the distance flow: a PLY per frame with the observed points, their "
                  "distance to the model, its gradient and their velocity")
       ->type_name("DIR");
@@ -222,16 +242,31 @@ void ApplyShortForms(const SettingSources& settings, Config& config) {
   }
 }
 
-/// The file, then the short forms, then --set.
-void ReadSettings(CLI::App& app, SettingSources& settings, Config& config) {
-  if (!settings.file.empty()) {
-    for (const RunSetting& setting : LoadSettings(settings.file, config)) {
-      ApplyRunSetting(app, setting);
-    }
-  }
+/// What was typed wins over what the file says.
+void ApplyTyped(const SettingSources& settings, Config& config) {
   ApplyShortForms(settings, config);
   for (const std::string& assignment : settings.assignments) ApplySetting(assignment, config);
-  CheckSettings(config);
+}
+
+/// The file, then the short forms, then --set.
+void ReadSettings(CLI::App& app, SettingSources& settings, Options& options) {
+  SettingsFile file;
+  if (!settings.file.empty()) {
+    file = LoadSettings(settings.file, options.config);
+    for (const RunSetting& setting : file.run) ApplyRunSetting(app, setting);
+  }
+  ApplyTyped(settings, options.config);
+  CheckSettings(options.config);
+  for (ObjectTable& object : file.objects) ApplyTyped(settings, object.config);
+  if (!settings.objects.empty()) file.objects.clear();
+  for (const std::string& object : settings.objects)
+    file.objects.push_back(ParseObject(object, options.config));
+  if (file.objects.size() > 1 && !settings.seed_px.empty()) {
+    throw Failure(kWrongUsage,
+                  "--seed names one object; with several, give each its own, e.g. --object "
+                  "name=box,seed=320:180");
+  }
+  options.objects = MakeObjects(file.objects, settings.common, options.config);
 }
 
 void CheckCameraPose(const Options& options) {
@@ -265,12 +300,15 @@ void CheckMaskStream(const Options& options) {
 }
 
 void CheckResolution(const Options& options) {
-  const double cell_m = static_cast<double>(options.config.field.cell_size_m);
-  const double finest_m = cell_m / kMaxStepsPerCell;
-  if (options.mesh_resolution_m == 0.0 || options.mesh_resolution_m >= 0.9999 * finest_m) return;
-  throw Failure(kWrongUsage, "--mesh-resolution is too fine: with field.cell_size_m = " +
-                                 std::to_string(cell_m) + " it is at least " +
-                                 std::to_string(finest_m));
+  if (options.mesh_resolution_m == 0.0) return;
+  for (const ObjectOptions& object : options.objects) {
+    const double cell_m = static_cast<double>(object.config.field.cell_size_m);
+    const double finest_m = cell_m / kMaxStepsPerCell;
+    if (options.mesh_resolution_m >= 0.9999 * finest_m) continue;
+    throw Failure(kWrongUsage, "--mesh-resolution is too fine: with field.cell_size_m = " +
+                                   std::to_string(cell_m) + " it is at least " +
+                                   std::to_string(finest_m));
+  }
 }
 
 }  // namespace
@@ -285,7 +323,7 @@ Options ParseCommandLine(int argc, char** argv, bool& exit_now) {
   AddObject(app, options, settings);
   AddCameraPose(app, options.camera_pose);
   AddRealtime(app, options.realtime);
-  AddOutput(app, options);
+  AddOutput(app, options, settings.common);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& answer) {
@@ -295,7 +333,7 @@ Options ParseCommandLine(int argc, char** argv, bool& exit_now) {
   } catch (const CLI::ParseError& error) {
     throw Failure(kWrongUsage, std::string(error.what()) + "; see disflow_track --help");
   }
-  ReadSettings(app, settings, options.config);
+  ReadSettings(app, settings, options);
   CheckResolution(options);
   CheckCameraPose(options);
   CheckMaskStream(options);

@@ -7,6 +7,7 @@
 
 #include "disflow/config.h"
 #include "disflow/hal/mavlink/messages.h"
+#include "object_options.h"
 #include "realtime_options.h"
 
 namespace disflow::apps {
@@ -29,17 +30,14 @@ struct CameraPoseOptions {
 struct Options {
   std::string sensor;
   std::vector<std::string> links;
-  std::string csv;
-  std::string mesh;
-  std::string mesh_picture;
   double mesh_resolution_m = 0.0;  ///< 0: by the model's own detail.
-  std::string flow;                ///< Folder.
   std::string record;
-  Config config;  ///< Defaults, then the file, then --set.
+  Config config;                       ///< Defaults, then the file, then --set.
+  std::vector<ObjectOptions> objects;  ///< At least one.
+  int threads = 0;  ///< Among which the objects are shared out; 0 = by objects and processors.
   ProfileName profile = ProfileName::kEdge;
   Rate rate = Rate::kMax;
   std::int64_t frames = 0;  ///< At most; 0 = all.
-  std::uint8_t object_index = 0;
   std::string mask_stream;  ///< Name of shared memory.
   double mask_max_age_s = 0.1;
   CameraPoseOptions camera_pose;

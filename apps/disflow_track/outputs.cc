@@ -1,21 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "outputs.h"
 
-#include <cstring>
-
 #include "exit_status.h"
 
 namespace disflow::apps {
 
 Outputs::Outputs(const Options& options, Console& console, hal::CameraPoseHistory* camera_poses)
-    : console_(console),
-      telemetry_(options, camera_poses, console),
-      mesh_(options.mesh, options.mesh_picture),
-      record_path_(options.record) {
-  if (!options.flow.empty()) flow_.emplace(options.flow);
+    : console_(console), telemetry_(options, camera_poses, console), record_path_(options.record) {
+  for (const ObjectOptions& object : options.objects) objects_.emplace_back(object.files);
   if (!options.record.empty()) StartRecording(options.record);
-  // Last, since it empties a file that may exist.
-  if (!options.csv.empty()) csv_.emplace(options.csv, options.timing);
+  // Last, since it empties files that may exist.
+  for (ObjectOutputs& object : objects_) object.OpenTrajectory(options.timing);
 }
 
 void Outputs::StartRecording(const std::string& folder) {
@@ -25,13 +20,11 @@ void Outputs::StartRecording(const std::string& folder) {
   if (!fault.ok()) throw Failure(kOutputFailed, fault.message);
 }
 
-void Outputs::Deliver(const FrameResult& result, const DepthFrame* frame, std::int64_t age_ns,
-                      std::int64_t now_ns) {
-  telemetry_.Send(result, age_ns, now_ns);
-  if (csv_ && csv_->file().error() == 0 && !csv_->Write(result)) {
-    Fail(csv_->file().path() + ": cannot be written: " + std::strerror(csv_->file().error()) +
-         "; it ends before frame " + std::to_string(result.frame));
-  }
+void Outputs::Deliver(std::span<const FrameResult> results, const DepthFrame* frame,
+                      std::int64_t age_ns, std::int64_t now_ns) {
+  telemetry_.Send(results, age_ns, now_ns);
+  for (std::size_t i = 0; i < objects_.size(); ++i)
+    Attempt([&] { objects_[i].WriteRow(results[i]); });
   if (!recording_ || frame == nullptr) return;
   const hal::Fault fault = Record(*frame);
   if (fault.ok()) return;
@@ -44,28 +37,18 @@ hal::Fault Outputs::Record(const DepthFrame& frame) {
   return fault.ok() && frame.mask.given() ? recording_->AddMask("gt", frame.mask) : fault;
 }
 
-void Outputs::WriteFlow(const FrameResult& result) {
-  try {
-    flow_->Write(result.frame, result.estimate);
-  } catch (const Failure& failure) {
-    Fail(std::string(failure.what()) + "; no more flow is written");
-    flow_.reset();
-  }
+void Outputs::WriteFlow(const TrackedObjects& objects, std::span<const FrameResult> results) {
+  for (std::size_t i = 0; i < objects_.size(); ++i)
+    Attempt([&] { objects_[i].WriteFlow(*objects[i], results[i]); });
 }
 
-void Outputs::WriteMesh(const SurfaceMesh& mesh) {
-  try {
-    for (std::string& line : mesh_.Write(mesh)) written_.push_back(std::move(line));
-  } catch (const Failure& failure) {
-    Fail(failure.what());
-  }
+void Outputs::WriteMeshes(const TrackedObjects& objects, double resolution_m) {
+  for (std::size_t i = 0; i < objects_.size(); ++i)
+    Attempt([&] { objects_[i].WriteMesh(*objects[i], resolution_m, written_); });
 }
 
 bool Outputs::Finish() {
-  if (csv_) written_.push_back(csv_->file().path() + ": trajectory");
-  if (flow_) {
-    written_.push_back(flow_->folder() + ": flow of " + std::to_string(flow_->files()) + " frames");
-  }
+  for (ObjectOutputs& object : objects_) object.Finish(written_);
   if (recording_) {
     const hal::Fault fault = recording_->Finish();
     if (!fault.ok()) Fail(fault.message);
@@ -73,6 +56,15 @@ bool Outputs::Finish() {
   }
   for (std::string& line : telemetry_.Summary()) written_.push_back(std::move(line));
   return complete_ && !telemetry_.AnyLost();
+}
+
+template <class Write>
+void Outputs::Attempt(Write&& write) {
+  try {
+    write();
+  } catch (const Failure& failure) {
+    Fail(failure.what());
+  }
 }
 
 void Outputs::Fail(const std::string& message) {

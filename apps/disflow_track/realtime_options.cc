@@ -26,6 +26,13 @@ void ApplyToTrackingThread(const RealtimeOptions& options, Console& console) {
         console);
 }
 
+void ApplyToWorkerThread(const RealtimeOptions& options, int worker, Console& console) {
+  const std::size_t place = 2 + static_cast<std::size_t>(worker);
+  Apply("tracking thread: ", options.priority,
+        place < options.cpus.size() ? &options.cpus[place] : nullptr, console);
+  if (options.lock_memory) posix::PrefaultStack();
+}
+
 void ApplyToCaptureThread(const RealtimeOptions& options, Console& console) {
   // It has little to do, and the newest frame is worth more than the one being tracked.
   const int priority = options.priority > 0 && options.priority < kHighestPriority

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "run.h"
 
+#include <algorithm>
+#include <thread>
+
 #include "console.h"
-#include "disflow/distance_flow.h"
 #include "disflow/posix/monotonic_clock.h"
-#include "disflow/tracker.h"
 #include "frame_feed.h"
-#include "object_channel.h"
 #include "outputs.h"
 #include "run_report.h"
 #include "sensor_choice.h"
 #include "service_status.h"
 #include "side_inputs.h"
 #include "stop_signal.h"
-#include "surface_mesh.h"
+#include "tracked_object.h"
+#include "worker_pool.h"
 
 namespace disflow::apps {
 namespace {
@@ -22,40 +23,32 @@ using posix::MonotonicClock;
 
 std::int64_t ReadClock(void* context) { return static_cast<MonotonicClock*>(context)->NowNs(); }
 
-template <class Limits>
-void WriteMesh(const DistanceField<Limits>& field, const Options& options, Outputs& outputs) {
-  static SurfaceWorkspace<Limits> workspace;  // too large for a stack
-  SurfaceMesh mesh;
-  // An empty model gives an empty mesh, which is said there.
-  (void)ExtractSurface(
-      field, DrawingOptions(options.config.field, static_cast<float>(options.mesh_resolution_m)),
-      workspace, mesh);
-  outputs.WriteMesh(mesh);
-}
-
-template <class Limits>
-void WriteFlow(const Tracker<Limits>& tracker, const FrameResult& result, Outputs& outputs) {
-  FlowCloud* const cloud = outputs.flow();
-  if (cloud == nullptr) return;
-  cloud->Clear();
-  if (StreamFlow(tracker, result.estimate, *cloud) > 0) outputs.WriteFlow(result);
+/// Threads beside the tracking thread.
+int WorkersFor(const Options& options) {
+  const int objects = static_cast<int>(options.objects.size());
+  // 0 if it is not known.
+  const int processors = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const int threads = options.threads > 0 ? options.threads : processors;
+  return std::min(threads, objects) - 1;
 }
 
 /// A run from its first frame to its last, with all that it reads and writes.
-template <class Limits>
 class TrackingRun {
  public:
   /// @throws Failure for what keeps the run from starting.
-  TrackingRun(const Options& options, Tracker<Limits>& tracker)
+  explicit TrackingRun(const Options& options)
       : options_(options),
-        tracker_(tracker),
         console_(!options.headless),
         opener_(options.sensor, sensor_),
         info_(sensor_.get()->info()),
         inputs_(options, info_),
         outputs_(options, console_, inputs_.camera_poses()),
         source_(*sensor_.get(), clock_, options.rate, options.frames, console_),
-        channel_("object", options.object_index, ObjectChannel::NewSnapshot<Limits>) {}
+        results_(options.objects.size()),
+        reports_(options.objects.size()) {
+    for (const ObjectOptions& object : options.objects)
+      objects_.push_back(MakeTrackedObject(options.profile, object));
+  }
 
   [[nodiscard]] ExitStatus Run() {
     const std::int64_t begin_ns = clock_.NowNs();
@@ -70,11 +63,9 @@ class TrackingRun {
     const double seconds = static_cast<double>(clock_.NowNs() - begin_ns) * 1e-9;
     service_.Stopping();
     if (status == kDone) status = JudgeInput();
-    if (outputs_.wants_mesh()) WriteMesh(tracker_.field(), options_, outputs_);
+    outputs_.WriteMeshes(objects_, options_.mesh_resolution_m);
     const bool complete = outputs_.Finish();
-    console_.Say(report_.Format(seconds));
-    for (const std::string& line : inputs_.Summary()) console_.Say(line);
-    for (const std::string& line : outputs_.written()) console_.Say(line);
+    Report(seconds);
     return status == kDone && !complete ? kOutputFailed : status;
   }
 
@@ -87,13 +78,16 @@ class TrackingRun {
   void Track() {
     const bool live = info_.live || options_.rate == Rate::kLive;
     if (live) console_.WriteInBackground();
+    WorkerPool pool(WorkersFor(options_), [this](int worker) {
+      ApplyToWorkerThread(options_.realtime, worker, console_);
+    });
     FrameFeed feed(*sensor_.get(), source_, live, options_.realtime, console_);
-    // The capture thread is there already, or it would inherit what is asked for here.
+    // The other threads are there already, or they would inherit what is asked for here.
     ApplyToTrackingThread(options_.realtime, console_);
     LockProcessMemory(options_.realtime, console_);
     service_.Ready();
     for (;;) {
-      if (channel_.paused() && !StopRequested()) {
+      if (IsPaused() && !StopRequested()) {
         Rest();
         continue;
       }
@@ -102,10 +96,16 @@ class TrackingRun {
       if (turn.event == FrameSource::Event::kIdle) {
         outputs_.KeepAlive(clock_.NowNs());
       } else {
-        Take(turn);
+        Take(turn, pool);
       }
-      service_.Turn(result_, turn.source_is_alive, clock_.NowNs());
+      service_.Turn(results_, turn.source_is_alive, clock_.NowNs());
     }
+  }
+
+  /// Objects share the frames, so whoever pauses one pauses all.
+  [[nodiscard]] bool IsPaused() const noexcept {
+    return std::any_of(objects_.begin(), objects_.end(),
+                       [](const auto& object) { return object->channel().paused(); });
   }
 
   /// While somebody has paused the run: all stay informed that it lives.
@@ -114,55 +114,73 @@ class TrackingRun {
     const std::int64_t now_ns = clock_.NowNs();
     clock_.SleepUntilNs(now_ns + kRest_ns);
     outputs_.KeepAlive(now_ns);
-    service_.Turn(result_, /*source_is_alive=*/true, now_ns);
+    service_.Turn(results_, /*source_is_alive=*/true, now_ns);
   }
 
-  void Take(const FrameFeed::Turn& turn) {
+  void Take(const FrameFeed::Turn& turn, WorkerPool& pool) {
     const bool readable = turn.event == FrameSource::Event::kFrame;
-    result_.sensor = turn.counters;
+    for (FrameResult& result : results_) result.sensor = turn.counters;
     if (readable) {
-      TrackFrame(turn.counters);
+      TrackFrame(turn.counters, pool);
     } else {
-      // The last pose stands; the row says that it is not of this frame.
-      result_.estimate.status = turn.fault;
-      result_.estimate.stage_ns.fill(0);
-      result_.total_ns = 0;
+      for (FrameResult& result : results_) {
+        // The last pose stands; the row says that it is not of this frame.
+        result.estimate.status = turn.fault;
+        result.estimate.stage_ns.fill(0);
+        result.total_ns = 0;
+      }
     }
     const std::int64_t now_ns = clock_.NowNs();
-    outputs_.Deliver(result_, readable ? &frame_ : nullptr, source_.AgeNs(frame_.stamp_ns), now_ns);
-    channel_.Offer(tracker_, result_, readable ? &frame_ : nullptr);
-    report_.Add(result_);
-    console_.Show(result_, now_ns);
-    ++result_.frame;
+    const DepthFrame* const frame = readable ? &frame_ : nullptr;
+    outputs_.Deliver(results_, frame, source_.AgeNs(frame_.stamp_ns), now_ns);
+    for (std::size_t i = 0; i < results_.size(); ++i) {
+      objects_[i]->ShowToListeners(results_[i], frame);
+      reports_[i].Add(results_[i]);
+    }
+    console_.Show(results_, now_ns);
+    for (FrameResult& result : results_) ++result.frame;
   }
 
-  void TrackFrame(const hal::SensorCounters& counters) {
-    const StageClock stage_clock = options_.timing ? StageClock{ReadClock, &clock_} : StageClock{};
+  void TrackFrame(const hal::SensorCounters& counters, WorkerPool& pool) {
     const std::int64_t begin_ns = clock_.NowNs();
     outputs_.Receive(begin_ns);
-    if (channel_.TakeReset()) tracker_.Reset();
     inputs_.Attach(frame_, console_);
-    (void)tracker_.Process(frame_, result_.estimate, stage_clock);  // the estimate carries it
-    result_.total_ns = clock_.NowNs() - begin_ns;
-    result_.totals = tracker_.totals();
+    const std::int64_t shared_ns = clock_.NowNs() - begin_ns;
+    const auto track = [this, &counters, shared_ns](std::size_t i) noexcept {
+      TrackObject(*objects_[i], counters, shared_ns, results_[i]);
+    };
+    pool.ForEach(objects_.size(), track);
+    all_objects_.Add(clock_.NowNs() - begin_ns);
+    outputs_.WriteFlow(objects_, results_);
+  }
+
+  /// In any thread of the pool.
+  void TrackObject(TrackedObject& object, const hal::SensorCounters& counters,
+                   std::int64_t shared_ns, FrameResult& result) noexcept {
+    const std::int64_t begin_ns = clock_.NowNs();
+    const StageClock stage_clock = options_.timing ? StageClock{ReadClock, &clock_} : StageClock{};
+    object.Track(frame_, stage_clock, result);
     // A camera that was away may have been moved: listeners are told as of a new start.
-    result_.estimate.reset_counter =
-        static_cast<std::uint8_t>(result_.estimate.reset_counter + counters.reconnects);
-    WriteFlow(tracker_, result_, outputs_);
+    result.estimate.reset_counter =
+        static_cast<std::uint8_t>(result.estimate.reset_counter + counters.reconnects);
+    result.total_ns = shared_ns + clock_.NowNs() - begin_ns;
   }
 
   /// Judges the input of a run that came to its end.
   [[nodiscard]] ExitStatus JudgeInput() {
-    if (report_.frames() == 0) {
+    if (reports_.front().frames() == 0) {
       if (StopRequested()) return kDone;
       console_.Say("the sensor delivered no frame");
       return kInputFailed;
     }
-    if (report_.registered() == 0) {
-      console_.Say("no frame could be tracked: " +
-                   std::string(Describe(report_.most_frequent_fault())));
-      return kInputFailed;
+    bool any_tracked = false;
+    for (std::size_t i = 0; i < reports_.size(); ++i) {
+      any_tracked = any_tracked || reports_[i].registered() > 0;
+      if (reports_[i].registered() > 0) continue;
+      console_.Say(Prefix(i) + "no frame could be tracked: " +
+                   std::string(Describe(reports_[i].most_frequent_fault())));
     }
+    if (!any_tracked) return kInputFailed;
     if (source_.unreadable() > 0 && !info_.live) {
       console_.Say(std::to_string(source_.unreadable()) + " frames could not be read");
       return kInputFailed;
@@ -170,8 +188,24 @@ class TrackingRun {
     return kDone;
   }
 
+  void Report(double seconds) {
+    for (std::size_t i = 0; i < reports_.size(); ++i)
+      console_.Say(Prefix(i) + reports_[i].Format(seconds));
+    if (reports_.size() > 1) {
+      console_.Say("all " + std::to_string(reports_.size()) + " objects, by " +
+                   std::to_string(WorkersFor(options_) + 1) +
+                   " threads: " + FormatTimes(all_objects_));
+    }
+    for (const std::string& line : inputs_.Summary()) console_.Say(line);
+    for (const std::string& line : outputs_.written()) console_.Say(line);
+  }
+
+  /// Ahead of what is said of one of several objects.
+  [[nodiscard]] std::string Prefix(std::size_t object) const {
+    return options_.objects.size() > 1 ? options_.objects[object].name + ": " : "";
+  }
+
   const Options& options_;
-  Tracker<Limits>& tracker_;
   Console console_;
   MonotonicClock clock_;
   host::Sensor sensor_;
@@ -181,30 +215,15 @@ class TrackingRun {
   Outputs outputs_;
   FrameSource source_;
   ServiceStatus service_;
-  ObjectChannel channel_;
   DepthFrame frame_;
-  FrameResult result_;
-  RunReport report_;
+  TrackedObjects objects_;
+  std::vector<FrameResult> results_;
+  std::vector<RunReport> reports_;
+  DurationHistogram all_objects_;
 };
-
-template <class Limits>
-ExitStatus RunWith(const Options& options) {
-  static Tracker<Limits> tracker(options.config);  // MiBs: not on the stack
-  return TrackingRun<Limits>(options, tracker).Run();
-}
 
 }  // namespace
 
-ExitStatus Run(const Options& options) {
-  switch (options.profile) {
-    case ProfileName::kMicro:
-      return RunWith<profiles::Micro>(options);
-    case ProfileName::kEdge:
-      return RunWith<profiles::Edge>(options);
-    case ProfileName::kDense:
-      return RunWith<profiles::Dense>(options);
-  }
-  return kWrongUsage;
-}
+ExitStatus Run(const Options& options) { return TrackingRun(options).Run(); }
 
 }  // namespace disflow::apps

@@ -50,6 +50,11 @@ std::string FormatSensor(const hal::SensorCounters& sensor) {
 
 }  // namespace
 
+std::string FormatTimes(const DurationHistogram& times) {
+  return Print("time per frame: median %.2f ms, 99 %% below %.2f ms", times.Percentile_ms(0.5),
+               times.Percentile_ms(0.99));
+}
+
 void RunReport::Add(const FrameResult& result) noexcept {
   const Estimate& estimate = result.estimate;
   ++frames_;
@@ -83,8 +88,7 @@ std::string RunReport::Format(double seconds) const {
   text += Print("\n  at the end: %s, quality %d, %d restarts, %u frames dropped", Name(state_),
                 quality_, restarts_, sensor_.dropped);
   text += FormatSensor(sensor_);
-  text += Print("\n  time per frame: median %.2f ms, 99 %% below %.2f ms",
-                total_.Percentile_ms(0.5), total_.Percentile_ms(0.99));
+  text += "\n  " + FormatTimes(total_);
   text += "\n  rejected:";
   const std::size_t without_counters = text.size();
   for (const NamedCounter& counter : kCounters) {

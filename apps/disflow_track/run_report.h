@@ -10,7 +10,10 @@
 
 namespace disflow::apps {
 
-/// What a run amounts to, for the lines at its end.
+/// "time per frame: median 3.10 ms, 99 % below 4.20 ms"
+[[nodiscard]] std::string FormatTimes(const DurationHistogram& times);
+
+/// What a run amounts to for one object, for the lines at its end.
 class RunReport {
  public:
   void Add(const FrameResult& result) noexcept;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "disflow/posix/service_notifier.h"
 #include "frame_result.h"
@@ -14,11 +15,13 @@ class ServiceStatus {
   void Ready() noexcept { notifier_.Ready(); }
   void Stopping() noexcept { notifier_.Stopping(); }
   /// Once per turn of the tracking loop, also if no frame came.
+  /// @param results One per object.
   /// @param source_is_alive false: the capture thread hangs, and the watchdog shall find out.
-  void Turn(const FrameResult& result, bool source_is_alive, std::int64_t now_ns) noexcept;
+  void Turn(std::span<const FrameResult> results, bool source_is_alive,
+            std::int64_t now_ns) noexcept;
 
  private:
-  void Report(const FrameResult& result, std::int64_t now_ns) noexcept;
+  void Report(std::span<const FrameResult> results, std::int64_t now_ns) noexcept;
 
   posix::ServiceNotifier notifier_;
   std::int64_t reported_ns_ = 0;

@@ -13,17 +13,29 @@
 
 namespace disflow::apps {
 
-/// One line of a settings file's section [run]: an option of the command line.
+/// One line of a settings file: an option of the command line or of an object.
 struct RunSetting {
   std::string where;   ///< For messages: file and line.
   std::string option;  ///< "--rate".
   std::vector<std::string> values;
 };
 
+/// One [[object]] of a settings file.
+struct ObjectTable {
+  std::string where;
+  std::vector<RunSetting> keys;  ///< What is no section; the option is the key itself.
+  Config config;                 ///< The file's, then the sections of this object.
+};
+
+struct SettingsFile {
+  std::vector<RunSetting> run;
+  std::vector<ObjectTable> objects;
+};
+
 /// Overwrites the settings that a TOML file mentions.
-/// @return What its section [run] says.
+/// @return What else it says.
 /// @throws Failure kWrongUsage naming file, line, key, value and allowed range.
-[[nodiscard]] std::vector<RunSetting> LoadSettings(const std::string& file, Config& config);
+[[nodiscard]] SettingsFile LoadSettings(const std::string& file, Config& config);
 
 /// Overwrites one setting.
 /// @param assignment "registration.iterations=10".

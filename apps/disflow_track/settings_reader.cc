@@ -54,9 +54,13 @@ void Assign(const std::string& where, std::string_view name, const Number& numbe
   }
 }
 
+std::string Where(const std::string& file, const toml::node& node) {
+  return file + ":" + std::to_string(node.source().begin.line) + ": ";
+}
+
 void AssignNode(const std::string& file, const std::string& name, const toml::node& node,
                 Config& config) {
-  const std::string where = file + ":" + std::to_string(node.source().begin.line) + ": ";
+  const std::string where = Where(file, node);
   std::ostringstream text;
   if (const auto* integer = node.as_integer()) {
     text << integer->get();
@@ -87,10 +91,7 @@ bool AppendValue(const toml::node& node, std::vector<std::string>& values) {
 }
 
 RunSetting ReadRunSetting(const std::string& file, std::string_view key, const toml::node& node) {
-  RunSetting setting;
-  setting.where = file + ":" + std::to_string(node.source().begin.line) + ": ";
-  setting.option = "--" + std::string(key);
-  std::replace(setting.option.begin(), setting.option.end(), '_', '-');
+  RunSetting setting{.where = Where(file, node), .option = std::string(key), .values = {}};
   bool usable = true;
   if (const toml::array* const array = node.as_array()) {
     for (const toml::node& element : *array)
@@ -105,10 +106,46 @@ RunSetting ReadRunSetting(const std::string& file, std::string_view key, const t
   return setting;
 }
 
+/// "mesh_picture" of the section [run] is --mesh-picture.
+RunSetting ReadOption(const std::string& file, std::string_view key, const toml::node& node) {
+  RunSetting setting = ReadRunSetting(file, key, node);
+  std::replace(setting.option.begin(), setting.option.end(), '_', '-');
+  setting.option.insert(0, "--");
+  return setting;
+}
+
+void AssignSection(const std::string& file, std::string_view section, const toml::table& table,
+                   Config& config) {
+  for (const auto& [key, value] : table) {
+    AssignNode(file, std::string(section) + "." + std::string(key.str()), value, config);
+  }
+}
+
+std::vector<ObjectTable> ReadObjects(const std::string& file, const toml::node& node,
+                                     const Config& config) {
+  const toml::array* const array = node.as_array();
+  if (array == nullptr || !array->is_homogeneous<toml::table>())
+    Refuse(Where(file, node), "objects are tables, each headed [[object]]");
+  std::vector<ObjectTable> objects;
+  for (const toml::node& element : *array) {
+    ObjectTable& object = objects.emplace_back();
+    object.where = Where(file, element);
+    object.config = config;
+    for (const auto& [key, value] : *element.as_table()) {
+      if (const toml::table* const section = value.as_table()) {
+        AssignSection(file, key.str(), *section, object.config);
+      } else {
+        object.keys.push_back(ReadRunSetting(file, key.str(), value));
+      }
+    }
+  }
+  return objects;
+}
+
 }  // namespace
 
-std::vector<RunSetting> LoadSettings(const std::string& file, Config& config) {
-  std::vector<RunSetting> run;
+SettingsFile LoadSettings(const std::string& file, Config& config) {
+  SettingsFile settings;
   toml::table root;
   try {
     root = toml::parse_file(file);
@@ -118,20 +155,21 @@ std::vector<RunSetting> LoadSettings(const std::string& file, Config& config) {
     Refuse(file + at + ": ", std::string(error.description()));
   }
   for (const auto& [section, node] : root) {
+    if (section == "object") continue;
     const toml::table* const table = node.as_table();
     if (table == nullptr) {
       AssignNode(file, std::string(section.str()), node, config);
-      continue;
-    }
-    for (const auto& [key, value] : *table) {
-      if (section == "run") {
-        run.push_back(ReadRunSetting(file, key.str(), value));
-        continue;
-      }
-      AssignNode(file, std::string(section.str()) + "." + std::string(key.str()), value, config);
+    } else if (section == "run") {
+      for (const auto& [key, value] : *table)
+        settings.run.push_back(ReadOption(file, key.str(), value));
+    } else {
+      AssignSection(file, section.str(), *table, config);
     }
   }
-  return run;
+  // Last, since each starts from what the file says of all.
+  if (const toml::node* const objects = root.get("object"))
+    settings.objects = ReadObjects(file, *objects, config);
+  return settings;
 }
 
 void ApplySetting(std::string_view assignment, Config& config) {

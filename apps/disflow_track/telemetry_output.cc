@@ -14,9 +14,9 @@ constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr int kPiecesPerTurn = 8;
 constexpr std::size_t kPiece_bytes = 2048;
 
-hal::mavlink::TelemetryOptions EncoderOptions(const Options& options) {
+hal::mavlink::TelemetryOptions EncoderOptions(const Options& options, std::uint8_t object_index) {
   hal::mavlink::TelemetryOptions encoder;
-  encoder.object_index = options.object_index;
+  encoder.object_index = object_index;
   if (options.camera_pose.system_id != 0) encoder.pose_frame = options.camera_pose.world;
   return encoder;
 }
@@ -31,7 +31,11 @@ hal::mavlink::CameraPoseSource PoseSource(const CameraPoseOptions& options) {
 
 TelemetryOutput::TelemetryOutput(const Options& options, hal::CameraPoseHistory* camera_poses,
                                  Console& console)
-    : console_(console), encoder_(EncoderOptions(options)) {
+    : console_(console) {
+  for (const ObjectOptions& object : options.objects) {
+    components_.push_back(
+        {.encoder = hal::mavlink::TelemetryEncoder(EncoderOptions(options, object.index))});
+  }
   for (const std::string& uri : options.links) {
     Line& line = lines_.emplace_back();
     if (camera_poses != nullptr) {
@@ -50,22 +54,25 @@ TelemetryOutput::~TelemetryOutput() {
   for (Line& line : lines_) line.link.get()->Close();
 }
 
-void TelemetryOutput::Send(const FrameResult& result, std::int64_t age_ns,
+void TelemetryOutput::Send(std::span<const FrameResult> results, std::int64_t age_ns,
                            std::int64_t now_ns) noexcept {
   if (lines_.empty()) return;
   Reopen(now_ns);
-  const Estimate& estimate = result.estimate;
-  state_ = estimate.state;
-  stamp_ns_ = estimate.stamp_ns;
+  for (std::size_t i = 0; i < components_.size(); ++i)
+    components_[i].state = results[i].estimate.state;
+  stamp_ns_ = results.front().estimate.stamp_ns;
   // In a replay at full speed a second of the stream passes sooner than one on the clock.
   if (!heartbeat_sent_ || now_ns - heartbeat_ns_ >= kSecond_ns ||
       stamp_ns_ - heartbeat_stamp_ns_ >= kSecond_ns) {
-    SendHeartbeat(now_ns);
+    SendHeartbeats(now_ns);
   }
-  Broadcast(encoder_.EncodeOdometry(estimate, buffer_));
-  const hal::mavlink::SendContext context{
-      .age_ns = age_ns, .sensor = result.sensor, .totals = result.totals};
-  Broadcast(encoder_.EncodeStatus(estimate, context, buffer_));
+  for (std::size_t i = 0; i < components_.size(); ++i) {
+    const FrameResult& result = results[i];
+    Broadcast(components_[i].encoder.EncodeOdometry(result.estimate, buffer_));
+    const hal::mavlink::SendContext context{
+        .age_ns = age_ns, .sensor = result.sensor, .totals = result.totals};
+    Broadcast(components_[i].encoder.EncodeStatus(result.estimate, context, buffer_));
+  }
 }
 
 void TelemetryOutput::Receive(std::int64_t now_ns) noexcept {
@@ -93,14 +100,15 @@ void TelemetryOutput::KeepAlive(std::int64_t now_ns) noexcept {
   if (lines_.empty()) return;
   Receive(now_ns);
   Reopen(now_ns);
-  if (!heartbeat_sent_ || now_ns - heartbeat_ns_ >= kSecond_ns) SendHeartbeat(now_ns);
+  if (!heartbeat_sent_ || now_ns - heartbeat_ns_ >= kSecond_ns) SendHeartbeats(now_ns);
 }
 
-void TelemetryOutput::SendHeartbeat(std::int64_t now_ns) noexcept {
+void TelemetryOutput::SendHeartbeats(std::int64_t now_ns) noexcept {
   heartbeat_sent_ = true;
   heartbeat_ns_ = now_ns;
   heartbeat_stamp_ns_ = stamp_ns_;
-  Broadcast(encoder_.EncodeHeartbeat(state_, buffer_));
+  for (Component& component : components_)
+    Broadcast(component.encoder.EncodeHeartbeat(component.state, buffer_));
 }
 
 void TelemetryOutput::Broadcast(Expected<std::size_t> size) noexcept {

@@ -18,7 +18,7 @@
 
 namespace disflow::apps {
 
-/// Sends the estimates of one object over any number of links. A link that fails while running
+/// Sends the estimates of all objects over any number of links. A link that fails while running
 /// never stops the tracking: it is said once, counted, and opened again as soon as that is
 /// possible.
 class TelemetryOutput {
@@ -32,9 +32,11 @@ class TelemetryOutput {
   TelemetryOutput& operator=(const TelemetryOutput&) = delete;
   ~TelemetryOutput();
 
-  /// ODOMETRY and DISFLOW_STATUS of a frame, and HEARTBEAT if one is due.
+  /// ODOMETRY and DISFLOW_STATUS of each object in a frame, and HEARTBEAT if one is due.
+  /// @param results In the order of Options::objects.
   /// @param age_ns From capture to now; negative = unknown.
-  void Send(const FrameResult& result, std::int64_t age_ns, std::int64_t now_ns) noexcept;
+  void Send(std::span<const FrameResult> results, std::int64_t age_ns,
+            std::int64_t now_ns) noexcept;
   /// Takes what has come in, a bounded number of bytes.
   void Receive(std::int64_t now_ns) noexcept;
   /// HEARTBEAT if one is due although no frame comes.
@@ -54,7 +56,13 @@ class TelemetryOutput {
     bool frame_refusal_said = false;
   };
 
-  void SendHeartbeat(std::int64_t now_ns) noexcept;
+  /// An object as a MAVLink component.
+  struct Component {
+    hal::mavlink::TelemetryEncoder encoder;
+    TrackingState state = TrackingState::kInitialising;
+  };
+
+  void SendHeartbeats(std::int64_t now_ns) noexcept;
   void Broadcast(Expected<std::size_t> size) noexcept;
   void ReceiveOn(Line& line, std::int64_t now_ns) noexcept;
   void SendOn(Line& line, std::span<const std::byte> message) noexcept;
@@ -62,9 +70,8 @@ class TelemetryOutput {
 
   Console& console_;
   std::deque<Line> lines_;
-  hal::mavlink::TelemetryEncoder encoder_;
+  std::vector<Component> components_;
   std::array<std::byte, hal::mavlink::kMaxFrameSize> buffer_{};
-  TrackingState state_ = TrackingState::kInitialising;
   bool heartbeat_sent_ = false;
   std::int64_t heartbeat_ns_ = 0;   ///< On the clock.
   StampNs heartbeat_stamp_ns_ = 0;  ///< In the stream.

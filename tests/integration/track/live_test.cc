@@ -154,7 +154,7 @@ TEST_F(RunFileTest, WhatIsTyped_WinsOverTheFile) {
 TEST_F(RunFileTest, SenselessLine_IsNamedWithFileAndLine) {
   for (const char* line :
        {"sensr = \"sim:box\"", "rate = \"fast\"", "frames = -3", "frames = {}", "config = \"x\"",
-        "help = true", "cpu = [1, 2, 3]", "roi = [1, 2]", "sensor = [[1]]", "= 3"}) {
+        "help = true", "cpu = [1, 2, 3, 4, 5, 6]", "roi = [1, 2]", "sensor = [[1]]", "= 3"}) {
     WriteFile(Path("run.toml"), std::string("[run]\n") + line + "\n");
     const Outcome outcome = RunTrack({"--config", Path("run.toml")}, scratch());
     EXPECT_EQ(outcome.exit_status, 2) << line;

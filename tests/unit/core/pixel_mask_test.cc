@@ -80,8 +80,7 @@ TEST(PixelMask, BytesOfALabel_AreThePixelsOfThatValueOnly) {
       mask.SetFromBytes(3, begin, end, bytes.data(), label);
       mask.Finish();
       for (int u = 0; u < kWidth_px; ++u) {
-        const bool wanted =
-            u >= begin && u < end && bytes[static_cast<std::size_t>(u)] == label;
+        const bool wanted = u >= begin && u < end && bytes[static_cast<std::size_t>(u)] == label;
         ASSERT_EQ(mask.Test(u, 3), wanted) << u << ", label " << int{label};
       }
     }
