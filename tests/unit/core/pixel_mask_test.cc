@@ -73,7 +73,8 @@ TEST(PixelMask, BytesOfALabel_AreThePixelsOfThatValueOnly) {
   constexpr std::array<std::uint8_t, 7> kValues = {0, 1, 2, 3, 127, 128, 255};
   std::vector<std::uint8_t> bytes(kWidth_px);
   for (auto& byte : bytes) byte = kValues[random() % kValues.size()];
-  for (const std::uint8_t label : {1, 2, 3, 127, 128, 255, 77}) {
+  constexpr std::array<std::uint8_t, 7> kLabels = {1, 2, 3, 127, 128, 255, 77};
+  for (const std::uint8_t label : kLabels) {
     for (const auto& [begin, end] : {std::pair{0, kWidth_px}, {5, 140}, {64, 128}, {70, 75}}) {
       Mask mask;
       mask.Start(kWidth_px, kHeight_px);
