@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ros2.h>
+
+#include <string>
+#include <vector>
+
+/// @file
+/// The generated messages under short names, and how they point into memory of their owner: a
+/// message that is written owns nothing.
+
+namespace disflow::posix {
+
+namespace ros {
+using Header = std_msgs_msg_dds__Header_;
+using Time = builtin_interfaces_msg_dds__Time_;
+using Point = geometry_msgs_msg_dds__Point_;
+using Vector3 = geometry_msgs_msg_dds__Vector3_;
+using Quaternion = geometry_msgs_msg_dds__Quaternion_;
+using Pose = geometry_msgs_msg_dds__Pose_;
+using PoseStamped = geometry_msgs_msg_dds__PoseStamped_;
+using TransformStamped = geometry_msgs_msg_dds__TransformStamped_;
+using PoseWithCovarianceStamped = geometry_msgs_msg_dds__PoseWithCovarianceStamped_;
+using TwistWithCovarianceStamped = geometry_msgs_msg_dds__TwistWithCovarianceStamped_;
+using Odometry = nav_msgs_msg_dds__Odometry_;
+using Path = nav_msgs_msg_dds__Path_;
+using TFMessage = tf2_msgs_msg_dds__TFMessage_;
+using KeyValue = diagnostic_msgs_msg_dds__KeyValue_;
+using DiagnosticStatus = diagnostic_msgs_msg_dds__DiagnosticStatus_;
+using DiagnosticArray = diagnostic_msgs_msg_dds__DiagnosticArray_;
+using PointField = sensor_msgs_msg_dds__PointField_;
+using PointCloud2 = sensor_msgs_msg_dds__PointCloud2_;
+using Image = sensor_msgs_msg_dds__Image_;
+using ColorRGBA = std_msgs_msg_dds__ColorRGBA_;
+using Marker = visualization_msgs_msg_dds__Marker_;
+using TriggerRequest = std_srvs_srv_dds__Trigger_Request_;
+using TriggerResponse = std_srvs_srv_dds__Trigger_Response_;
+using QueryRequest = disflow_msgs_srv_dds__QueryDistanceField_Request_;
+using QueryResponse = disflow_msgs_srv_dds__QueryDistanceField_Response_;
+}  // namespace ros
+
+/// What Cyclone DDS has to know of a message that is sent or received as such.
+template <class Message>
+[[nodiscard]] const dds_topic_descriptor_t& DescriptorOf() noexcept;
+
+// clang-format off
+template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::PoseWithCovarianceStamped>() noexcept { return geometry_msgs_msg_dds__PoseWithCovarianceStamped__desc; }
+template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::TwistWithCovarianceStamped>() noexcept { return geometry_msgs_msg_dds__TwistWithCovarianceStamped__desc; }
+template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::Odometry>() noexcept { return nav_msgs_msg_dds__Odometry__desc; }
+template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::Path>() noexcept { return nav_msgs_msg_dds__Path__desc; }
+template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::TFMessage>() noexcept { return tf2_msgs_msg_dds__TFMessage__desc; }
+template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::DiagnosticArray>() noexcept { return diagnostic_msgs_msg_dds__DiagnosticArray__desc; }
+template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::PointCloud2>() noexcept { return sensor_msgs_msg_dds__PointCloud2__desc; }
+template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::Image>() noexcept { return sensor_msgs_msg_dds__Image__desc; }
+template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::Marker>() noexcept { return visualization_msgs_msg_dds__Marker__desc; }
+template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::TriggerRequest>() noexcept { return std_srvs_srv_dds__Trigger_Request__desc; }
+template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::TriggerResponse>() noexcept { return std_srvs_srv_dds__Trigger_Response__desc; }
+template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::QueryRequest>() noexcept { return disflow_msgs_srv_dds__QueryDistanceField_Request__desc; }
+template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::QueryResponse>() noexcept { return disflow_msgs_srv_dds__QueryDistanceField_Response__desc; }
+// clang-format on
+
+/// The text as a message points to it. Nobody writes through it: Cyclone DDS's structures are for
+/// both directions.
+[[nodiscard]] inline char* Lend(const std::string& text) noexcept {
+  return const_cast<char*>(text.c_str());
+}
+
+/// The elements as a message's sequence points to them.
+template <class Sequence, class Element>
+void Lend(std::vector<Element>& elements, Sequence& sequence) noexcept {
+  sequence._buffer = elements.data();
+  sequence._length = static_cast<std::uint32_t>(elements.size());
+  sequence._maximum = sequence._length;
+  sequence._release = false;
+}
+
+}  // namespace disflow::posix

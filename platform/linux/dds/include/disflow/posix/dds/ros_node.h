@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "disflow/posix/dds/dds_domain.h"
+#include "disflow/posix/dds/ros_messages.h"
+#include "disflow/posix/dds/ros_names.h"
+
+/// @file
+/// A ROS 2 node without ROS: topics and services over Cyclone DDS, named and typed as ROS 2's
+/// middleware does it. docs/ros2.md says what a ROS 2 machine sees of it.
+
+namespace disflow::posix {
+
+enum class RosQos {
+  kReliable,    ///< The last ten are sent again until they arrive.
+  kTransform,   ///< As kReliable, the last hundred.
+  kLatched,     ///< As kReliable, the last one; also to those who come later.
+  kSensorData,  ///< Best effort: what is lost is lost.
+};
+
+/// Writes one topic. Valid as long as its node.
+template <class Message>
+class RosPublisher {
+ public:
+  RosPublisher() = default;
+  explicit RosPublisher(dds_entity_t writer) noexcept : writer_(writer) {}
+
+  /// @return false if the message could not be queued for sending.
+  [[nodiscard]] bool Publish(const Message& message) noexcept {
+    return dds_write(writer_, &message) >= 0;
+  }
+  /// @return true if somebody listens, so that large messages are made only when they are wanted.
+  [[nodiscard]] bool HasListeners() const noexcept {
+    dds_publication_matched_status_t status;
+    return dds_get_publication_matched_status(writer_, &status) >= 0 && status.current_count > 0;
+  }
+
+ private:
+  dds_entity_t writer_ = 0;
+};
+
+/// Reads one topic. Valid as long as its node.
+template <class Message>
+class RosSubscription {
+ public:
+  RosSubscription() = default;
+  explicit RosSubscription(dds_entity_t reader) noexcept : reader_(reader) {}
+
+  /// Calls `take(message)` for what has come in, at most kBatch messages; never waits.
+  template <class Take>
+  void TakeAll(Take&& take) {
+    constexpr std::size_t kBatch = 32;
+    std::array<void*, kBatch> messages{};
+    std::array<dds_sample_info_t, kBatch> infos;
+    const int count = dds_take(reader_, messages.data(), infos.data(), kBatch, kBatch);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(std::max(count, 0)); ++i) {
+      if (infos[i].valid_data) take(*static_cast<const Message*>(messages[i]));
+    }
+    if (count > 0) (void)dds_return_loan(reader_, messages.data(), count);
+  }
+
+ private:
+  dds_entity_t reader_ = 0;
+};
+
+/// The two topics of a service, as rmw_cyclonedds has them: the client's header comes with the
+/// request and goes back with the reply.
+template <class Request, class Response>
+struct RosService {
+  RosSubscription<Request> requests;
+  RosPublisher<Response> replies;
+};
+
+/// One node in one participant.
+class RosNode {
+ public:
+  struct Options {
+    DdsNetwork network;
+    std::string name = "disflow";
+    bool before_iron = false;  ///< Announce the node as ROS 2 Humble and older understand it.
+  };
+
+  RosNode() = default;
+
+  /// Opens domain and participant.
+  [[nodiscard]] hal::Fault Open(const Options& options);
+
+  /// @param name Fully qualified, see IsRosName().
+  template <class Message>
+  [[nodiscard]] hal::Fault Advertise(const std::string& name, RosQos qos,
+                                     RosPublisher<Message>& publisher) {
+    dds_entity_t writer = 0;
+    const hal::Fault fault =
+        AddWriter({DescriptorOf<Message>(), TopicName(name), qos, {}}, writer);
+    publisher = RosPublisher<Message>(writer);
+    return fault;
+  }
+  template <class Message>
+  [[nodiscard]] hal::Fault Subscribe(const std::string& name, RosQos qos,
+                                     RosSubscription<Message>& subscription) {
+    dds_entity_t reader = 0;
+    const hal::Fault fault =
+        AddReader({DescriptorOf<Message>(), TopicName(name), qos, {}}, reader);
+    subscription = RosSubscription<Message>(reader);
+    return fault;
+  }
+  template <class Request, class Response>
+  [[nodiscard]] hal::Fault Serve(const std::string& name, RosService<Request, Response>& service) {
+    // Clients of rmw_cyclonedds tell by this which writer answers which reader.
+    const std::string id = "serviceid=" + ParticipantId() + name + ";";
+    dds_entity_t reader = 0;
+    dds_entity_t writer = 0;
+    hal::Fault fault = AddReader(
+        {DescriptorOf<Request>(), RequestTopicName(name), RosQos::kReliable, id}, reader);
+    if (!fault.ok()) return fault;
+    fault = AddWriter({DescriptorOf<Response>(), ReplyTopicName(name), RosQos::kReliable, id},
+                      writer);
+    service.requests = RosSubscription<Request>(reader);
+    service.replies = RosPublisher<Response>(writer);
+    return fault;
+  }
+
+  /// Tells the ROS graph who is here, with all topics and services made so far.
+  [[nodiscard]] hal::Fault Announce();
+
+ private:
+  struct Endpoint {
+    const dds_topic_descriptor_t& type;
+    std::string topic;  ///< Of DDS.
+    RosQos qos;
+    std::string user_data;
+  };
+
+  [[nodiscard]] hal::Fault AddWriter(const Endpoint& endpoint, dds_entity_t& writer);
+  [[nodiscard]] hal::Fault AddReader(const Endpoint& endpoint, dds_entity_t& reader);
+  [[nodiscard]] std::string ParticipantId() const;
+
+  Options options_;
+  DdsEntity domain_;
+  dds_entity_t participant_ = 0;  ///< With all its children deleted with the domain.
+  std::vector<dds_entity_t> writers_;
+  std::vector<dds_entity_t> readers_;
+};
+
+}  // namespace disflow::posix

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "disflow/posix/dds/dds_domain.h"
+
+#include <arpa/inet.h>
+
+#include <cstdlib>
+#include <string_view>
+
+namespace disflow::posix {
+namespace {
+
+bool IsAddress(const std::string& text) noexcept {
+  in6_addr any;
+  return inet_pton(AF_INET, text.c_str(), &any) == 1 || inet_pton(AF_INET6, text.c_str(), &any) == 1;
+}
+
+/// Cyclone DDS's configuration for what was asked for; later parts win over earlier ones.
+std::string Configuration(const DdsNetwork& network) {
+  std::string text;
+  if (const char* const given = std::getenv("CYCLONEDDS_URI"); given != nullptr) text = given;
+  if (network.interface.empty() && network.peers.empty()) return text;
+  if (!text.empty()) text += ',';
+  text += "<CycloneDDS><Domain>";
+  if (!network.interface.empty()) {
+    const char* const kind = IsAddress(network.interface) ? "address" : "name";
+    text.append("<General><Interfaces><NetworkInterface ")
+        .append(kind)
+        .append("=\"")
+        .append(network.interface)
+        .append("\"/></Interfaces></General>");
+  }
+  if (!network.peers.empty()) {
+    // Of a numbered participant the peers can guess the port.
+    text += "<Discovery><ParticipantIndex>auto</ParticipantIndex><Peers>";
+    for (const std::string& peer : network.peers) text += "<Peer address=\"" + peer + "\"/>";
+    text += "</Peers></Discovery>";
+  }
+  return text + "</Domain></CycloneDDS>";
+}
+
+/// Keeps the last words that Cyclone DDS would have logged.
+void KeepMessage(void* kept, const dds_log_data_t* data) {
+  std::string_view text(data->message, data->size);
+  while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.remove_suffix(1);
+  static_cast<std::string*>(kept)->assign(text);
+}
+
+}  // namespace
+
+hal::Fault OpenDomain(const DdsNetwork& network, DdsEntity& domain) {
+  std::string reason;
+  dds_set_log_sink(KeepMessage, &reason);
+  const dds_entity_t handle = dds_create_domain(network.domain, Configuration(network).c_str());
+  dds_set_log_sink(nullptr, nullptr);
+  if (handle < 0) {
+    return hal::MakeFault(Status::kIoError, "dds: domain %u cannot be opened: %s",
+                          static_cast<unsigned>(network.domain),
+                          reason.empty() ? dds_strretcode(handle) : reason.c_str());
+  }
+  domain = DdsEntity(handle);
+  return {};
+}
+
+}  // namespace disflow::posix

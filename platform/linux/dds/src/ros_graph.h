@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <dds/dds.h>
+
+#include <span>
+#include <string>
+
+#include "disflow/hal/fault.h"
+
+namespace disflow::posix {
+
+/// What ROS 2 has to be told of a participant, since DDS knows no nodes.
+struct GraphEntry {
+  std::string node_name;
+  std::span<const dds_entity_t> readers;
+  std::span<const dds_entity_t> writers;
+};
+
+/// Writes the entry to `ros_discovery_info`, where it stays for those who come later.
+/// @param before_iron With ids of 24 bytes, as ROS 2 Humble and older have them.
+[[nodiscard]] hal::Fault AnnounceInGraph(dds_entity_t participant, const GraphEntry& entry,
+                                         bool before_iron);
+
+}  // namespace disflow::posix

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "disflow/posix/dds/ros_node.h"
+
+#include <cstdio>
+
+#include "ros_graph.h"
+#include "ros_qos.h"
+
+namespace disflow::posix {
+namespace {
+
+hal::Fault EntityFault(const char* what, const std::string& topic, dds_entity_t code) {
+  return hal::MakeFault(Status::kIoError, "dds: no %s for %s: %s", what, topic.c_str(),
+                        dds_strretcode(code));
+}
+
+}  // namespace
+
+hal::Fault RosNode::Open(const Options& options) {
+  options_ = options;
+  const hal::Fault fault = OpenDomain(options.network, domain_);
+  if (!fault.ok()) return fault;
+  // By this key ROS 2 tells its own participants from others.
+  const Qos qos = MakeQos(RosQos::kReliable, "enclave=/;");
+  participant_ = dds_create_participant(options.network.domain, qos.get(), nullptr);
+  return participant_ < 0 ? EntityFault("participant", "the domain", participant_) : hal::Fault{};
+}
+
+hal::Fault RosNode::AddWriter(const Endpoint& endpoint, dds_entity_t& writer) {
+  const dds_entity_t topic = dds_create_topic(participant_, &endpoint.type, endpoint.topic.c_str(),
+                                              nullptr, nullptr);
+  if (topic < 0) return EntityFault("topic", endpoint.topic, topic);
+  writer = dds_create_writer(participant_, topic, MakeQos(endpoint.qos, endpoint.user_data).get(),
+                             nullptr);
+  if (writer < 0) return EntityFault("writer", endpoint.topic, writer);
+  writers_.push_back(writer);
+  return {};
+}
+
+hal::Fault RosNode::AddReader(const Endpoint& endpoint, dds_entity_t& reader) {
+  const dds_entity_t topic = dds_create_topic(participant_, &endpoint.type, endpoint.topic.c_str(),
+                                              nullptr, nullptr);
+  if (topic < 0) return EntityFault("topic", endpoint.topic, topic);
+  reader = dds_create_reader(participant_, topic, MakeQos(endpoint.qos, endpoint.user_data).get(),
+                             nullptr);
+  if (reader < 0) return EntityFault("reader", endpoint.topic, reader);
+  readers_.push_back(reader);
+  return {};
+}
+
+std::string RosNode::ParticipantId() const {
+  dds_guid_t guid{};
+  (void)dds_get_guid(participant_, &guid);  // zeros are as good a text
+  std::string text;
+  for (const std::uint8_t byte : guid.v) {
+    char digits[3];
+    (void)std::snprintf(digits, sizeof(digits), "%02x", byte);
+    text += digits;
+  }
+  return text;
+}
+
+hal::Fault RosNode::Announce() {
+  return AnnounceInGraph(participant_, {options_.name, readers_, writers_}, options_.before_iron);
+}
+
+}  // namespace disflow::posix
