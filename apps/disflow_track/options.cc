@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <map>
 
+#include "dds_address.h"
 #include "disflow/hal/mavlink/telemetry.h"
 #include "disflow/posix/mask_stream.h"
 #include "disflow/surface_extractor.h"
@@ -27,6 +28,9 @@ constexpr const char* kLinksAndStatus =
     "Links, each carries MAVLink 2 (docs/wire-format.md):\n"
     "  udp://HOST:PORT[?bind=PORT]\n"
     "  serial:///dev/NAME[?baud=RATE]\n"
+    "or ROS 2 (docs/ros2.md):\n"
+    "  dds:domain=N[&name=NODE][&interface=NAME][&peer=HOST,…][&camera=FRAME][&world=FRAME]\n"
+    "      [&ros=humble|iron]\n"
     "\n"
     "Every input frame gives one row of the CSV; its column status is 'ok' or says why the pose "
     "is\n"
@@ -269,6 +273,19 @@ void ReadSettings(CLI::App& app, SettingSources& settings, Options& options) {
   options.objects = MakeObjects(file.objects, settings.common, options.config);
 }
 
+/// Takes the link that is no MAVLink out of the list of those that are.
+void SplitLinks(Options& options) {
+  const auto dds = std::stable_partition(options.links.begin(), options.links.end(),
+                                         [](const auto& uri) { return !IsDdsAddress(uri); });
+  if (options.links.end() - dds > 1) {
+    throw Failure(kWrongUsage, "one --link dds: is enough: it shows all objects");
+  }
+  if (dds == options.links.end()) return;
+  options.dds_link = *dds;
+  (void)ParseDdsAddress(options.dds_link);
+  options.links.erase(dds);
+}
+
 void CheckCameraPose(const Options& options) {
   const CameraPoseOptions& pose = options.camera_pose;
   if (pose.system_id == 0) return;
@@ -335,6 +352,7 @@ Options ParseCommandLine(int argc, char** argv, bool& exit_now) {
   }
   ReadSettings(app, settings, options);
   CheckResolution(options);
+  SplitLinks(options);
   CheckCameraPose(options);
   CheckMaskStream(options);
   if (options.sensor.empty() && !options.list_sensors && !options.print_config &&

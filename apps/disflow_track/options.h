@@ -29,7 +29,8 @@ struct CameraPoseOptions {
 /// The command line, checked.
 struct Options {
   std::string sensor;
-  std::vector<std::string> links;
+  std::vector<std::string> links;  ///< That carry MAVLink.
+  std::string dds_link;            ///< Empty: none.
   double mesh_resolution_m = 0.0;  ///< 0: by the model's own detail.
   std::string record;
   Config config;                       ///< Defaults, then the file, then --set.

@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "console.h"
+#include "dds_output.h"
 #include "disflow/posix/monotonic_clock.h"
 #include "frame_feed.h"
 #include "outputs.h"
@@ -32,6 +33,19 @@ int WorkersFor(const Options& options) {
   return std::min(threads, objects) - 1;
 }
 
+TrackedObjects MakeObjects(const Options& options) {
+  TrackedObjects objects;
+  for (const ObjectOptions& object : options.objects)
+    objects.push_back(MakeTrackedObject(options.profile, object));
+  return objects;
+}
+
+std::vector<ObjectChannel*> ChannelsOf(const TrackedObjects& objects) {
+  std::vector<ObjectChannel*> channels;
+  for (const auto& object : objects) channels.push_back(&object->channel());
+  return channels;
+}
+
 /// A run from its first frame to its last, with all that it reads and writes.
 class TrackingRun {
  public:
@@ -44,11 +58,10 @@ class TrackingRun {
         inputs_(options, info_),
         outputs_(options, console_, inputs_.camera_poses()),
         source_(*sensor_.get(), clock_, options.rate, options.frames, console_),
+        objects_(MakeObjects(options)),
+        dds_(options.dds_link, ChannelsOf(objects_), info_.live, console_),
         results_(options.objects.size()),
-        reports_(options.objects.size()) {
-    for (const ObjectOptions& object : options.objects)
-      objects_.push_back(MakeTrackedObject(options.profile, object));
-  }
+        reports_(options.objects.size()) {}
 
   [[nodiscard]] ExitStatus Run() {
     const std::int64_t begin_ns = clock_.NowNs();
@@ -63,6 +76,7 @@ class TrackingRun {
     const double seconds = static_cast<double>(clock_.NowNs() - begin_ns) * 1e-9;
     service_.Stopping();
     if (status == kDone) status = JudgeInput();
+    dds_.Finish();
     outputs_.WriteMeshes(objects_, options_.mesh_resolution_m);
     const bool complete = outputs_.Finish();
     Report(seconds);
@@ -198,6 +212,7 @@ class TrackingRun {
     }
     for (const std::string& line : inputs_.Summary()) console_.Say(line);
     for (const std::string& line : outputs_.written()) console_.Say(line);
+    for (const std::string& line : dds_.Summary()) console_.Say(line);
   }
 
   /// Ahead of what is said of one of several objects.
@@ -217,6 +232,7 @@ class TrackingRun {
   ServiceStatus service_;
   DepthFrame frame_;
   TrackedObjects objects_;
+  DdsOutput dds_;
   std::vector<FrameResult> results_;
   std::vector<RunReport> reports_;
   DurationHistogram all_objects_;

@@ -11,7 +11,8 @@ namespace {
 
 bool IsAddress(const std::string& text) noexcept {
   in6_addr any;
-  return inet_pton(AF_INET, text.c_str(), &any) == 1 || inet_pton(AF_INET6, text.c_str(), &any) == 1;
+  return inet_pton(AF_INET, text.c_str(), &any) == 1 ||
+         inet_pton(AF_INET6, text.c_str(), &any) == 1;
 }
 
 /// Cyclone DDS's configuration for what was asked for; later parts win over earlier ones.

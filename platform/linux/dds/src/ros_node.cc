@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "disflow/posix/dds/ros_node.h"
 
+#include <algorithm>
 #include <cstdio>
 
 #include "ros_graph.h"
@@ -27,8 +28,8 @@ hal::Fault RosNode::Open(const Options& options) {
 }
 
 hal::Fault RosNode::AddWriter(const Endpoint& endpoint, dds_entity_t& writer) {
-  const dds_entity_t topic = dds_create_topic(participant_, &endpoint.type, endpoint.topic.c_str(),
-                                              nullptr, nullptr);
+  const dds_entity_t topic =
+      dds_create_topic(participant_, &endpoint.type, endpoint.topic.c_str(), nullptr, nullptr);
   if (topic < 0) return EntityFault("topic", endpoint.topic, topic);
   writer = dds_create_writer(participant_, topic, MakeQos(endpoint.qos, endpoint.user_data).get(),
                              nullptr);
@@ -38,8 +39,8 @@ hal::Fault RosNode::AddWriter(const Endpoint& endpoint, dds_entity_t& writer) {
 }
 
 hal::Fault RosNode::AddReader(const Endpoint& endpoint, dds_entity_t& reader) {
-  const dds_entity_t topic = dds_create_topic(participant_, &endpoint.type, endpoint.topic.c_str(),
-                                              nullptr, nullptr);
+  const dds_entity_t topic =
+      dds_create_topic(participant_, &endpoint.type, endpoint.topic.c_str(), nullptr, nullptr);
   if (topic < 0) return EntityFault("topic", endpoint.topic, topic);
   reader = dds_create_reader(participant_, topic, MakeQos(endpoint.qos, endpoint.user_data).get(),
                              nullptr);
@@ -62,6 +63,13 @@ std::string RosNode::ParticipantId() const {
 
 hal::Fault RosNode::Announce() {
   return AnnounceInGraph(participant_, {options_.name, readers_, writers_}, options_.before_iron);
+}
+
+void RosNode::WaitForAcknowledgments(std::int64_t timeout_ns) noexcept {
+  const dds_time_t end_ns = dds_time() + timeout_ns;
+  for (const dds_entity_t writer : writers_) {
+    (void)dds_wait_for_acks(writer, std::max<std::int64_t>(end_ns - dds_time(), 0));
+  }
 }
 
 }  // namespace disflow::posix

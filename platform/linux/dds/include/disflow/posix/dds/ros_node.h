@@ -95,8 +95,7 @@ class RosNode {
   [[nodiscard]] hal::Fault Advertise(const std::string& name, RosQos qos,
                                      RosPublisher<Message>& publisher) {
     dds_entity_t writer = 0;
-    const hal::Fault fault =
-        AddWriter({DescriptorOf<Message>(), TopicName(name), qos, {}}, writer);
+    const hal::Fault fault = AddWriter({DescriptorOf<Message>(), TopicName(name), qos, {}}, writer);
     publisher = RosPublisher<Message>(writer);
     return fault;
   }
@@ -104,8 +103,7 @@ class RosNode {
   [[nodiscard]] hal::Fault Subscribe(const std::string& name, RosQos qos,
                                      RosSubscription<Message>& subscription) {
     dds_entity_t reader = 0;
-    const hal::Fault fault =
-        AddReader({DescriptorOf<Message>(), TopicName(name), qos, {}}, reader);
+    const hal::Fault fault = AddReader({DescriptorOf<Message>(), TopicName(name), qos, {}}, reader);
     subscription = RosSubscription<Message>(reader);
     return fault;
   }
@@ -115,11 +113,11 @@ class RosNode {
     const std::string id = "serviceid=" + ParticipantId() + name + ";";
     dds_entity_t reader = 0;
     dds_entity_t writer = 0;
-    hal::Fault fault = AddReader(
-        {DescriptorOf<Request>(), RequestTopicName(name), RosQos::kReliable, id}, reader);
+    hal::Fault fault =
+        AddReader({DescriptorOf<Request>(), RequestTopicName(name), RosQos::kReliable, id}, reader);
     if (!fault.ok()) return fault;
-    fault = AddWriter({DescriptorOf<Response>(), ReplyTopicName(name), RosQos::kReliable, id},
-                      writer);
+    fault =
+        AddWriter({DescriptorOf<Response>(), ReplyTopicName(name), RosQos::kReliable, id}, writer);
     service.requests = RosSubscription<Request>(reader);
     service.replies = RosPublisher<Response>(writer);
     return fault;
@@ -127,6 +125,9 @@ class RosNode {
 
   /// Tells the ROS graph who is here, with all topics and services made so far.
   [[nodiscard]] hal::Fault Announce();
+
+  /// Waits until all that listen reliably have everything, or the time is over.
+  void WaitForAcknowledgments(std::int64_t timeout_ns) noexcept;
 
  private:
   struct Endpoint {

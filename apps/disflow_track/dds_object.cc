@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dds_object.h"
+
+#include "exit_status.h"
+
+namespace disflow::apps {
+namespace {
+
+namespace ros = posix::ros;
+using posix::RosQos;
+
+constexpr std::int64_t kPathPeriod_ns = 500'000'000;
+
+void Require(const hal::Fault& fault) {
+  if (!fault.ok()) throw Failure(kOutputFailed, fault.message);
+}
+
+}  // namespace
+
+DdsObject::DdsObject(const DdsAddress& address, ObjectChannel& channel, NewsSignal& signal,
+                     DdsClock& clock, posix::RosNode& node, TransformPublisher& transforms,
+                     Counters& counters)
+    : reader_(channel.AddReader(signal)),
+      clock_(clock),
+      transforms_(transforms),
+      counters_(counters),
+      frames_{address.camera_frame, address.name + "/" + posix::RosNamePart(channel.name()),
+              address.world_frame},
+      status_(address.name + ": " + channel.name()) {
+  const std::string prefix = "/" + frames_.object + "/";
+  Require(node.Advertise(prefix + "odometry", RosQos::kReliable, odometry_));
+  Require(node.Advertise(prefix + "pose", RosQos::kReliable, pose_));
+  Require(node.Advertise(prefix + "twist", RosQos::kReliable, twist_));
+  Require(node.Advertise(prefix + "path", RosQos::kLatched, path_publisher_));
+  Require(node.Advertise(prefix + "status", RosQos::kReliable, status_publisher_));
+}
+
+void DdsObject::Turn() {
+  FrameResult result;
+  while (reader_.Pop(result)) PublishResult(result);
+}
+
+void DdsObject::Finish() {
+  Turn();
+  if (!path_.empty()) PublishPath();
+}
+
+void DdsObject::PublishResult(const FrameResult& result) {
+  const Estimate& estimate = result.estimate;
+  const std::int64_t ros_ns = clock_.ToRos(estimate.stamp_ns);
+  Publish(status_publisher_, status_.Message(result, reader_.lost(), ros_ns, frames_));
+  // A prediction is no measurement: who needs one continues with the twist.
+  if (estimate.status != Status::kOk) return;
+  Publish(odometry_, MakeRosOdometry(estimate, ros_ns, frames_));
+  Publish(pose_, MakeRosPose(estimate, ros_ns, frames_));
+  Publish(twist_, MakeRosTwist(estimate, ros_ns, frames_));
+  std::vector<ros::TransformStamped> transforms = {MakeRosTransform(estimate, ros_ns, frames_)};
+  ros::TFMessage message{};
+  posix::Lend(transforms, message.transforms);
+  Publish(transforms_, message);
+  path_.Add(estimate, ros_ns, frames_);
+  if (ros_ns - path_ns_ < kPathPeriod_ns) return;
+  path_ns_ = ros_ns;
+  PublishPath();
+}
+
+void DdsObject::PublishPath() { Publish(path_publisher_, path_.Message()); }
+
+}  // namespace disflow::apps

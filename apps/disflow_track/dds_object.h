@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "dds_address.h"
+#include "dds_clock.h"
+#include "dds_motion.h"
+#include "dds_status.h"
+#include "disflow/posix/dds/ros_node.h"
+#include "object_channel.h"
+
+namespace disflow::apps {
+
+/// One object's topics and services. All by the thread of DdsPublisher but for the making.
+class DdsObject {
+ public:
+  using TransformPublisher = posix::RosPublisher<posix::ros::TFMessage>;
+
+  /// What was written; all objects' together.
+  struct Counters {
+    std::uint64_t sent = 0;
+    std::uint64_t failed = 0;
+  };
+
+  /// @param signal Raised when the object has news.
+  /// @throws Failure kOutputFailed.
+  DdsObject(const DdsAddress& address, ObjectChannel& channel, NewsSignal& signal, DdsClock& clock,
+            posix::RosNode& node, TransformPublisher& transforms, Counters& counters);
+  DdsObject(const DdsObject&) = delete;
+  DdsObject& operator=(const DdsObject&) = delete;
+
+  /// Publishes what is new.
+  void Turn();
+  /// Publishes what waits for its moment: nothing more comes.
+  void Finish();
+
+  /// Results that were never published since DDS was too slow.
+  [[nodiscard]] std::uint32_t lost() const { return reader_.lost(); }
+
+ private:
+  void PublishResult(const FrameResult& result);
+  void PublishPath();
+  template <class Message>
+  void Publish(posix::RosPublisher<Message>& publisher, const Message& message) {
+    ++(publisher.Publish(message) ? counters_.sent : counters_.failed);
+  }
+
+  ChannelReader& reader_;
+  DdsClock& clock_;
+  TransformPublisher& transforms_;
+  Counters& counters_;
+  DdsFrames frames_;
+  DdsPath path_;
+  std::int64_t path_ns_ = 0;  ///< ROS time of the path published last.
+  DdsStatus status_;
+  posix::RosPublisher<posix::ros::Odometry> odometry_;
+  posix::RosPublisher<posix::ros::PoseWithCovarianceStamped> pose_;
+  posix::RosPublisher<posix::ros::TwistWithCovarianceStamped> twist_;
+  posix::RosPublisher<posix::ros::Path> path_publisher_;
+  posix::RosPublisher<posix::ros::DiagnosticArray> status_publisher_;
+};
+
+}  // namespace disflow::apps

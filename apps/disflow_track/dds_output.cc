@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dds_output.h"
+
+#include <atomic>
+#include <chrono>
+#include <deque>
+#include <thread>
+
+#include "dds_address.h"
+#include "dds_object.h"
+#include "exit_status.h"
+
+namespace disflow::apps {
+
+/// The node, its objects and the thread that serves them.
+class DdsPublisher {
+ public:
+  DdsPublisher(const std::string& uri, std::span<ObjectChannel* const> channels, bool live)
+      : uri_(uri), clock_(live) {
+    const DdsAddress address = ParseDdsAddress(uri);
+    posix::RosNode::Options options;
+    options.network = {address.domain, address.interface, address.peers};
+    options.name = address.name;
+    options.before_iron = address.before_iron;
+    Require(node_.Open(options));
+    Require(node_.Advertise("/tf", posix::RosQos::kTransform, transforms_));
+    for (ObjectChannel* const channel : channels) {
+      objects_.emplace_back(address, *channel, signal_, clock_, node_, transforms_, counters_);
+    }
+    Require(node_.Announce());
+    thread_ = std::thread([this] { Serve(); });
+  }
+  DdsPublisher(const DdsPublisher&) = delete;
+  DdsPublisher& operator=(const DdsPublisher&) = delete;
+  ~DdsPublisher() { Finish(); }
+
+  void Finish() {
+    if (!thread_.joinable()) return;
+    stop_ = true;
+    signal_.Raise();
+    thread_.join();
+  }
+
+  [[nodiscard]] std::string Summary() const {
+    std::uint64_t lost = 0;
+    for (const DdsObject& object : objects_) lost += object.lost();
+    return uri_ + ": " + std::to_string(counters_.sent) + " messages sent, " +
+           std::to_string(counters_.failed) + " failed, " + std::to_string(lost) +
+           " results too late to be sent";
+  }
+
+ private:
+  static constexpr std::int64_t kPatience_ns = 5'000'000;
+  static constexpr std::int64_t kFarewell_ns = 1'000'000'000;
+  static constexpr std::chrono::milliseconds kSettle{500};
+
+  void Require(const hal::Fault& fault) const {
+    if (!fault.ok()) throw Failure(kOutputFailed, "link '" + uri_ + "': " + fault.message);
+  }
+
+  void Serve() {
+    // Who listens already has to find this node first. Results wait in their queues meanwhile.
+    std::this_thread::sleep_for(kSettle);
+    while (!stop_) {
+      // Also without news: requests do not raise the signal.
+      (void)signal_.WaitFor(kPatience_ns);
+      for (DdsObject& object : objects_) object.Turn();
+    }
+    for (DdsObject& object : objects_) object.Finish();
+    node_.WaitForAcknowledgments(kFarewell_ns);
+  }
+
+  std::string uri_;
+  NewsSignal signal_;
+  DdsClock clock_;
+  posix::RosNode node_;
+  DdsObject::TransformPublisher transforms_;
+  DdsObject::Counters counters_;
+  std::deque<DdsObject> objects_;
+  std::atomic<bool> stop_ = false;
+  std::thread thread_;
+};
+
+DdsOutput::DdsOutput(const std::string& uri, std::span<ObjectChannel* const> objects, bool live,
+                     Console&) {
+  if (!uri.empty()) publisher_ = std::make_unique<DdsPublisher>(uri, objects, live);
+}
+
+DdsOutput::~DdsOutput() = default;
+
+void DdsOutput::Finish() {
+  if (publisher_) publisher_->Finish();
+}
+
+std::vector<std::string> DdsOutput::Summary() const {
+  if (!publisher_) return {};
+  return {publisher_->Summary()};
+}
+
+}  // namespace disflow::apps

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Decoders and encoders of ROS 2 messages, from ROS's own definitions and by Foxglove's library.
+import { readFileSync } from "node:fs";
+import { parse } from "@foxglove/rosmsg";
+import definitions from "@foxglove/rosmsg-msgs-common";
+import { MessageReader, MessageWriter } from "@foxglove/rosmsg2-serialization";
+
+const humble = definitions.ros2humble;
+
+/** All definitions that the root needs, the root first. */
+function withDependencies(root) {
+  const found = new Map([[root.name ?? "", root]]);
+  for (const definition of found.values()) {
+    for (const field of definition.definitions) {
+      if (!field.isComplex || field.isConstant) continue;
+      const name = field.type;
+      if (name === "time" || name === "duration" || found.has(name)) continue;
+      if (!humble[name]) throw new Error(`no definition of ${name}`);
+      found.set(name, humble[name]);
+    }
+  }
+  return [...found.values()];
+}
+
+/** Definitions by a ROS name as nav_msgs/Odometry, or by the text of a .msg file. */
+function definitionsOf(message) {
+  if (humble[message]) return withDependencies(humble[message]);
+  const [root, ...others] = parse(message, { ros2: true });
+  return [...withDependencies(root), ...others];
+}
+
+export const readerOf = (message) => new MessageReader(definitionsOf(message));
+export const writerOf = (message) => new MessageWriter(definitionsOf(message));
+
+/** The samples of a file that the peer wrote. */
+export function samples(path) {
+  const bytes = readFileSync(path);
+  const list = [];
+  for (let at = 0; at + 4 <= bytes.length; ) {
+    const size = bytes.readUInt32LE(at);
+    list.push(Uint8Array.from(bytes.subarray(at + 4, at + 4 + size)));
+    at += 4 + size;
+  }
+  return list;
+}
+
+/** The samples of a file, decoded; each must be used up to its last byte. */
+export function decode(path, message) {
+  const reader = readerOf(message);
+  return samples(path).map((bytes) => reader.readMessage(bytes));
+}
+
+/** Both parts of a .srv file, each with the header that rmw_cyclonedds puts before it. */
+export function service(path) {
+  const header = "uint64 client\nint64 seq\n";
+  const [request, response] = readFileSync(path, "utf8").split(/^---$/m);
+  return { request: header + request, response: header + response };
+}
