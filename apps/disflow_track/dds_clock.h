@@ -12,21 +12,16 @@ namespace disflow::apps {
 /// later.
 class DdsClock {
  public:
-  /// @param live Stamps are of CLOCK_MONOTONIC. Else the first stamp is taken for now: a replay
-  /// looks as if it happened today.
-  explicit DdsClock(bool live) noexcept : known_(live) {
-    if (live) offset_ns_ = Now(CLOCK_REALTIME) - Now(CLOCK_MONOTONIC);
-  }
+  /// @param live Stamps are of CLOCK_MONOTONIC. Else the first one is taken for now: a replay looks
+  /// as if it began when this was made.
+  explicit DdsClock(bool live) noexcept
+      : known_(live), offset_ns_(Now(CLOCK_REALTIME) - (live ? Now(CLOCK_MONOTONIC) : 0)) {}
 
   [[nodiscard]] std::int64_t ToRos(StampNs stamp_ns) noexcept {
-    if (!known_) offset_ns_ = Now(CLOCK_REALTIME) - stamp_ns;
+    if (!known_) offset_ns_ -= stamp_ns;
     known_ = true;
     return stamp_ns + offset_ns_;
   }
-  /// The way back, for stamps of others.
-  [[nodiscard]] StampNs FromRos(std::int64_t ros_ns) const noexcept { return ros_ns - offset_ns_; }
-  /// @return false: no stamp has come yet that would tell.
-  [[nodiscard]] bool known() const noexcept { return known_; }
 
  private:
   static std::int64_t Now(clockid_t clock) noexcept {
@@ -36,7 +31,7 @@ class DdsClock {
   }
 
   bool known_;
-  std::int64_t offset_ns_ = 0;
+  std::int64_t offset_ns_;  ///< Of a replay the moment of its beginning, until known_.
 };
 
 }  // namespace disflow::apps

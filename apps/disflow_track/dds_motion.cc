@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dds_motion.h"
 
+#include <algorithm>
+
 namespace disflow::apps {
 namespace {
 
@@ -24,9 +26,14 @@ ros::Pose RosPose(const Transform<FrameA, FrameB>& T) noexcept {
   return {Make3<ros::Point>(T.translation()), MakeQuaternion(T.rotation_quaternion())};
 }
 
-/// Row by row; both sides have (x, y, z, about x, about y, about z).
+/// Row by row; both sides have (x, y, z, about x, about y, about z). From the upper triangle, as
+/// all outputs: rounding leaves the lower one a bit different, and some filters refuse that.
 void Fill(const Mat6& covariance, double (&out)[36]) noexcept {
-  for (int i = 0; i < 36; ++i) out[i] = static_cast<double>(covariance(i / 6, i % 6));
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j < 6; ++j) {
+      out[6 * i + j] = static_cast<double>(covariance(std::min(i, j), std::max(i, j)));
+    }
+  }
 }
 
 /// A covariance of two vectors in axes a, in axes b.

@@ -23,7 +23,7 @@ class DdsPublisher {
     options.name = address.name;
     options.before_iron = address.before_iron;
     Require(node_.Open(options));
-    Require(node_.Advertise("/tf", posix::RosQos::kTransform, transforms_));
+    Require(node_.Advertise("/tf", posix::RosQos::kReliable, transforms_));
     for (ObjectChannel* const channel : channels) {
       objects_.emplace_back(address, *channel, signal_, clock_, node_, transforms_, counters_);
     }
@@ -52,15 +52,24 @@ class DdsPublisher {
  private:
   static constexpr std::int64_t kPatience_ns = 5'000'000;
   static constexpr std::int64_t kFarewell_ns = 1'000'000'000;
-  static constexpr std::chrono::milliseconds kSettle{500};
+  static constexpr int kTurns = 75;
+  static constexpr std::chrono::milliseconds kTurn{20};
+  static constexpr std::chrono::milliseconds kSettle{250};
 
   void Require(const hal::Fault& fault) const {
     if (!fault.ok()) throw Failure(kOutputFailed, "link '" + uri_ + "': " + fault.message);
   }
 
+  /// Who was there before needs a moment to find this node, and is to miss nothing: results wait in
+  /// their queues meanwhile.
+  void AwaitListeners() {
+    for (int i = 0; i < kTurns && !node_.HasListeners(); ++i) std::this_thread::sleep_for(kTurn);
+    // They find one topic after the other.
+    if (node_.HasListeners()) std::this_thread::sleep_for(kSettle);
+  }
+
   void Serve() {
-    // Who listens already has to find this node first. Results wait in their queues meanwhile.
-    std::this_thread::sleep_for(kSettle);
+    AwaitListeners();
     while (!stop_) {
       // Also without news: requests do not raise the signal.
       (void)signal_.WaitFor(kPatience_ns);

@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// A DDS participant that shares no code with the program under test: Fast DDS, and messages as bytes
-// that only their type's name tells apart, which is how ROS 2's own middleware uses it. Whoever runs it
-// says on standard input what to do, one command a line, and gets one line back:
+// A DDS participant that shares no code with the program under test: Fast DDS, and messages as
+// bytes that only their type's name tells apart, which is how ROS 2's own middleware uses it.
+// Whoever runs it says on standard input what to do, one command a line, and gets one line back:
 //
-//   subscribe TOPIC TYPE QOS FILE               samples are appended to FILE: length (4 bytes, little
+//   subscribe TOPIC TYPE QOS FILE               samples are appended to FILE: length (4 bytes,
+//   little
 //                                               endian), then the bytes with their encapsulation
 //   count TOPIC                                 samples received so far
-//   publish TOPIC TYPE QOS FILE                 one sample, the bytes of FILE, once somebody listens
-//   call REQUEST_TOPIC TYPE REPLY_TOPIC TYPE REQUEST_FILE REPLY_FILE
+//   publish TOPIC TYPE QOS FILE                 one sample, the bytes of FILE, once somebody
+//   listens call REQUEST_TOPIC TYPE REPLY_TOPIC TYPE REQUEST_FILE REPLY_FILE
 //
 // QOS is reliable, latched or best_effort.
+
+#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
+#include <fastrtps/utils/IPLocator.h>
 
 #include <atomic>
 #include <chrono>
@@ -24,8 +28,6 @@
 #include <fastdds/dds/subscriber/Subscriber.hpp>
 #include <fastdds/dds/topic/Topic.hpp>
 #include <fastdds/dds/topic/TopicDataType.hpp>
-#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
-#include <fastrtps/utils/IPLocator.h>
 #include <fstream>
 #include <iostream>
 #include <iterator>
@@ -100,8 +102,8 @@ class Recorder final : public dds::DataReaderListener {
 
 template <class Qos>
 void Apply(const std::string& name, Qos& qos) {
-  qos.reliability().kind = name == "best_effort" ? dds::BEST_EFFORT_RELIABILITY_QOS
-                                                 : dds::RELIABLE_RELIABILITY_QOS;
+  qos.reliability().kind =
+      name == "best_effort" ? dds::BEST_EFFORT_RELIABILITY_QOS : dds::RELIABLE_RELIABILITY_QOS;
   qos.durability().kind =
       name == "latched" ? dds::TRANSIENT_LOCAL_DURABILITY_QOS : dds::VOLATILE_DURABILITY_QOS;
   qos.history().kind = dds::KEEP_LAST_HISTORY_QOS;
@@ -170,8 +172,8 @@ class Peer {
     return topics_[name] = participant_->create_topic(name, type, dds::TOPIC_QOS_DEFAULT);
   }
 
-  Recorder& Subscribe(const std::string& topic, const std::string& type, const std::string& qos_name,
-                      const std::string& path) {
+  Recorder& Subscribe(const std::string& topic, const std::string& type,
+                      const std::string& qos_name, const std::string& path) {
     auto& recorder = recorders_[topic];
     recorder = std::make_unique<Recorder>(path);
     dds::DataReaderQos qos = dds::DATAREADER_QOS_DEFAULT;

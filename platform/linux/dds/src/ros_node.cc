@@ -65,6 +65,10 @@ hal::Fault RosNode::Announce() {
   return AnnounceInGraph(participant_, {options_.name, readers_, writers_}, options_.before_iron);
 }
 
+bool RosNode::HasListeners() const noexcept {
+  return std::any_of(writers_.begin(), writers_.end(), posix::HasListeners);
+}
+
 void RosNode::WaitForAcknowledgments(std::int64_t timeout_ns) noexcept {
   const dds_time_t end_ns = dds_time() + timeout_ns;
   for (const dds_entity_t writer : writers_) {

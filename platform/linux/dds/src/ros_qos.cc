@@ -7,8 +7,6 @@ namespace {
 std::int32_t DepthOf(RosQos profile) noexcept {
   switch (profile) {
     case RosQos::kReliable:
-      return 10;
-    case RosQos::kTransform:
       return 100;
     case RosQos::kLatched:
       return 1;

@@ -17,11 +17,15 @@
 namespace disflow::posix {
 
 enum class RosQos {
-  kReliable,    ///< The last ten are sent again until they arrive.
-  kTransform,   ///< As kReliable, the last hundred.
+  kReliable,    ///< The last hundred are sent again until they arrive.
   kLatched,     ///< As kReliable, the last one; also to those who come later.
   kSensorData,  ///< Best effort: what is lost is lost.
 };
+
+[[nodiscard]] inline bool HasListeners(dds_entity_t writer) noexcept {
+  dds_publication_matched_status_t status;
+  return dds_get_publication_matched_status(writer, &status) >= 0 && status.current_count > 0;
+}
 
 /// Writes one topic. Valid as long as its node.
 template <class Message>
@@ -35,10 +39,7 @@ class RosPublisher {
     return dds_write(writer_, &message) >= 0;
   }
   /// @return true if somebody listens, so that large messages are made only when they are wanted.
-  [[nodiscard]] bool HasListeners() const noexcept {
-    dds_publication_matched_status_t status;
-    return dds_get_publication_matched_status(writer_, &status) >= 0 && status.current_count > 0;
-  }
+  [[nodiscard]] bool HasListeners() const noexcept { return posix::HasListeners(writer_); }
 
  private:
   dds_entity_t writer_ = 0;
@@ -125,6 +126,9 @@ class RosNode {
 
   /// Tells the ROS graph who is here, with all topics and services made so far.
   [[nodiscard]] hal::Fault Announce();
+
+  /// @return true if anything of this node is listened to.
+  [[nodiscard]] bool HasListeners() const noexcept;
 
   /// Waits until all that listen reliably have everything, or the time is over.
   void WaitForAcknowledgments(std::int64_t timeout_ns) noexcept;
