@@ -10,7 +10,7 @@
 
 #include "dds_address.h"
 #include "disflow/hal/mavlink/telemetry.h"
-#include "disflow/posix/mask_stream.h"
+#include "disflow/posix/mask_source.h"
 #include "disflow/surface_extractor.h"
 #include "exit_status.h"
 #include "object_list.h"
@@ -115,7 +115,7 @@ void AddObject(CLI::App& app, Options& options, SettingSources& settings) {
       ->check(CLI::Range(1, static_cast<int>(kMaxObjects)).description(""))
       ->type_name("N");
   app.add_option("--mask-stream", options.mask_stream,
-                 "Masks that another process writes: shared memory /NAME or file:PATH, see "
+                 "Masks of another process: shared memory /NAME, file:PATH or v4l2:DEVICE, see "
                  "docs/masks.md")
       ->type_name("NAME");
   app.add_option("--mask-age", options.mask_max_age_s,
@@ -312,7 +312,7 @@ void CheckCameraPose(const Options& options) {
 
 void CheckMaskStream(const Options& options) {
   if (options.mask_stream.empty()) return;
-  const hal::Fault fault = posix::MaskStream::CheckName(options.mask_stream);
+  const hal::Fault fault = posix::CheckMaskName(options.mask_stream);
   if (!fault.ok()) throw Failure(kWrongUsage, fault.message);
 }
 

@@ -39,7 +39,7 @@ struct Options {
   ProfileName profile = ProfileName::kEdge;
   Rate rate = Rate::kMax;
   std::int64_t frames = 0;  ///< At most; 0 = all.
-  std::string mask_stream;  ///< Name of shared memory.
+  std::string mask_stream;  ///< See posix::MakeMaskSource().
   double mask_max_age_s = 0.1;
   CameraPoseOptions camera_pose;
   RealtimeOptions realtime;

@@ -33,8 +33,8 @@ std::string Line(const std::string& name,
 
 SideInputs::SideInputs(const Options& options, const hal::SensorInfo& sensor) {
   if (!options.mask_stream.empty()) {
-    masks_.emplace(options.mask_stream, sensor.width_px, sensor.height_px,
-                   std::llround(options.mask_max_age_s * 1e9));
+    masks_ = posix::MakeMaskSource(options.mask_stream, sensor.width_px, sensor.height_px,
+                                   std::llround(options.mask_max_age_s * 1e9));
   }
   if (options.camera_pose.system_id != 0) poses_.emplace(PoseSettings(options.camera_pose));
 }

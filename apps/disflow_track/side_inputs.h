@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,7 +9,7 @@
 #include "console.h"
 #include "disflow/hal/camera_pose_history.h"
 #include "disflow/hal/depth_sensor.h"
-#include "disflow/posix/mask_stream.h"
+#include "disflow/posix/mask_source.h"
 #include "options.h"
 
 namespace disflow::apps {
@@ -29,8 +30,8 @@ class SideInputs {
   [[nodiscard]] std::vector<std::string> Summary() const;
 
  private:
-  std::optional<posix::MaskStream> masks_;
-  Status mask_status_ = Status::kOk;  ///< What was said last.
+  std::unique_ptr<posix::MaskSource> masks_;  ///< Null: none are wanted.
+  Status mask_status_ = Status::kOk;          ///< What was said last.
   std::optional<hal::CameraPoseHistory> poses_;
 };
 

@@ -8,6 +8,7 @@
 #include <functional>
 #include <random>
 
+#include "patched_image.h"
 #include "target_run.h"
 
 namespace disflow::firmware_test {
@@ -31,6 +32,16 @@ class FaultTest : public ::testing::Test {
     EXPECT_EQ(answer.odometry.reset_counter, 0);
     EXPECT_EQ(answer.odometry.time_usec,
               static_cast<std::uint64_t>(frames_[2].frame.stamp_ns / 1000));
+  }
+
+  /// The controller has restarted once since the board was started.
+  void ExpectThirdFrameStartsAnew(FedBoard& board) {
+    const apps::BoardAnswer answer = board.Track(frames_[2]);
+    EXPECT_TRUE(answer.tracked);
+    EXPECT_EQ(answer.status.status, 0);
+    EXPECT_EQ(answer.timing.restarts, 1U);
+    EXPECT_EQ(answer.odometry.reset_counter, 1) << "receivers must see that the object is new";
+    EXPECT_EQ(answer.ready.frames, 1U);
   }
 
   std::vector<Frame> frames_;
@@ -148,12 +159,25 @@ TEST_F(FaultTest, FrameOverItsBudget_RestartsTheControllerWhichTracksAnew) {
   FedBoard::Check(board.connection().SetBudgets({.frame_us = 100'000, .stage_us = 0}));
   EXPECT_FALSE(board.Track(frames_[1]).tracked);
   // Budgets are gone with the restart.
-  const apps::BoardAnswer answer = board.Track(frames_[2]);
-  EXPECT_TRUE(answer.tracked);
-  EXPECT_EQ(answer.status.status, 0);
-  EXPECT_EQ(answer.timing.restarts, 1U);
-  EXPECT_EQ(answer.odometry.reset_counter, 1) << "receivers must see that the object frame is new";
-  EXPECT_EQ(answer.ready.frames, 1U);
+  ExpectThirdFrameStartsAnew(board);
+}
+
+TEST_F(FaultTest, ProcessorFault_RestartsTheControllerWhichTracksAnew) {
+  for (const Board& model : {kM7, kM55}) {
+    if (!Emulator::Missing(model).empty()) continue;
+    const PatchedImage image(model.image, "DecodeBudgets");
+    EmulatorOptions patched;
+    patched.board = model;
+    patched.image = image.path();
+    FedBoard board(patched);
+    board.WaitUntilReady();
+    ASSERT_TRUE(board.Track(frames_[0]).tracked) << model.name;
+    ASSERT_TRUE(board.Track(frames_[1]).tracked) << model.name;
+    // The answer to this is the instruction that there is not.
+    (void)board.connection().SetBudgets({.frame_us = 0, .stage_us = 1});
+    (void)board.connection().WaitUntilReady(kPatience_ns);
+    ExpectThirdFrameStartsAnew(board);
+  }
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The kernel's virtual video driver: every 16-bit format and odd sizes negotiate or are refused."""
 import os
+import re
 import unittest
 
 import setting
@@ -20,9 +21,9 @@ class Vivid(unittest.TestCase):
     def setUpClass(cls):
         kernel = make_kernel("amd64")
         guest = Guest(kernel, os.path.join(setting.folder, "vivid"))
-        # One webcam; nothing else.
+        # Two webcams, the second for masks; nothing else.
         guest.add_modules(["vivid"])
-        guest.add_options("vivid", "n_devs=1 node_types=0x1 input_types=0x0 num_inputs=1")
+        guest.add_options("vivid", "n_devs=2 node_types=0x1,0x1 input_types=0x0,0x0 num_inputs=1,1")
         for program in ["hil_frame_log", "disflow_track"]:
             guest.add_program(os.path.join(setting.programs, program))
         cls.out = guest.boot(cls.script(), timeout_s=400)
@@ -38,6 +39,8 @@ class Vivid(unittest.TestCase):
                          f">/out/size_{size}")
         lines.append(f'hil_frame_log "v4l2:/dev/video0?{_K}" 3 >/out/any')
         lines.append(f'hil_frame_log "v4l2:/dev/video0?format=Y16&fps=1000&{_K}" 3 >/out/rate_1000')
+        lines.append(f'disflow_track --sensor "v4l2:/dev/video0?format=Y16&width=320&height=180&{_K}" --frames 20 '
+                     "--mask-stream v4l2:/dev/video1 --headless 2>/out/masked")
         return "\n".join(lines) + "\n"
 
     def text(self, name):
@@ -77,3 +80,10 @@ class Vivid(unittest.TestCase):
     def test_listing_names_the_depth_formats(self):
         for name in _DELIVERED:
             self.assertIn(f"format={name}\n", self.text("list"))
+
+    def test_masks_of_another_device_belong_to_the_frames_of_their_time(self):
+        # Test pictures, not depth: whether they can be tracked does not matter.
+        used = re.search(r"masks from v4l2:/dev/video1: (\d+) used, (\d+) missing, (\d+) late", self.text("masked"))
+        self.assertIsNotNone(used, self.text("masked"))
+        self.assertGreater(int(used[1]), 5, self.text("masked"))
+        setting.figures.append(f"vivid: GREY masks, {used[1]} of 20 frames had one, {used[2]} before the first came")

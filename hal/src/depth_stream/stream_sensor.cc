@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "disflow/hal/depth_stream/stream_sensor.h"
 
+#include <cmath>
+
 #include "disflow/hal/mavlink/frame.h"
 #include "disflow/hal/mavlink/telemetry.h"
 #include "disflow/hal/saturating.h"
@@ -64,9 +66,10 @@ void StreamSensor::Begin(const PacketView& packet) noexcept {
   next_pixel_ = 0;
   const bool readable = DecodeStart(packet.payload, start_);
   const std::size_t pixels = std::size_t{start_.width_px} * start_.height_px;
-  state_ = readable && pixels > 0 && pixels <= image_.size() && start_.camera.IsValid()
-               ? State::kReceiving
-               : State::kRefused;
+  const bool fits = pixels > 0 && pixels <= image_.size();
+  const bool has_unit = start_.unit_m > 0.0F && std::isfinite(start_.unit_m);
+  state_ =
+      readable && fits && has_unit && start_.camera.IsValid() ? State::kReceiving : State::kRefused;
 }
 
 StreamSensor::Outcome StreamSensor::End(std::uint32_t sequence) noexcept {

@@ -194,6 +194,18 @@ TEST_F(StreamSensorTest, TooLargeFrame_IsRefusedAndCounted) {
   EXPECT_EQ(ready.frames_lost, 0U);
 }
 
+TEST_F(StreamSensorTest, FrameWithoutUnitOrIntrinsics_IsRefusedAndCounted) {
+  FrameStart no_unit = Start(kWidth, kHeight);
+  no_unit.unit_m = 0.0F;
+  FrameStart no_camera = Start(kWidth, kHeight);
+  no_camera.camera.fx_px = -1.0F;
+  Send(Packets(1, no_unit));
+  EXPECT_EQ(Next(), Status::kCorrupt);
+  Send(Packets(2, no_camera));
+  EXPECT_EQ(Next(), Status::kCorrupt);
+  EXPECT_EQ(LastReady().frames_refused, 2U);
+}
+
 TEST_F(StreamSensorTest, EndlessGarbage_EndsTheWaitAllTheSame) {
   line_.Arrive(std::vector<std::byte>(1 << 20, std::byte{0x55}));
   EXPECT_EQ(Next(), Status::kTimeout);

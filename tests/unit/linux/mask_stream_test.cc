@@ -183,10 +183,10 @@ TEST_F(Masks, WriterAtWorkAllTheTime_NeverGivesAMixture) {
 }
 
 TEST_F(Masks, Names_AreChecked) {
-  EXPECT_TRUE(MaskStream::CheckName("/masks").ok());
-  EXPECT_TRUE(MaskStream::CheckName("file:/tmp/masks").ok());
+  EXPECT_TRUE(CheckMaskName("/masks").ok());
+  EXPECT_TRUE(CheckMaskName("file:/tmp/masks").ok());
   for (const char* name : {"", "/", "masks", "/a/b", "file:", "shm:/x"}) {
-    const hal::Fault fault = MaskStream::CheckName(name);
+    const hal::Fault fault = CheckMaskName(name);
     EXPECT_EQ(fault.status, Status::kInvalidUri) << name;
     EXPECT_NE(std::string(fault.message).find("docs/masks.md"), std::string::npos);
   }

@@ -36,6 +36,8 @@ constexpr std::array kLibcamera{
                      Conversion::kUnpack10},
 };
 
+constexpr DepthPixelFormat kMask{"GREY", V4L2_PIX_FMT_GREY, false, false, 0, Conversion::kNone, 1};
+
 unsigned Byte(const std::byte* bytes, std::size_t i) noexcept {
   return std::to_integer<unsigned>(bytes[i]);
 }
@@ -62,6 +64,8 @@ void Unpack(const std::byte* row, std::span<std::uint16_t> pixels) noexcept {
 
 std::span<const DepthPixelFormat> V4l2DepthFormats() noexcept { return kV4l2; }
 std::span<const DepthPixelFormat> LibcameraDepthFormats() noexcept { return kLibcamera; }
+
+const DepthPixelFormat& V4l2MaskFormat() noexcept { return kMask; }
 
 const DepthPixelFormat* FindFormat(std::span<const DepthPixelFormat> formats,
                                    std::string_view name) noexcept {
@@ -90,7 +94,7 @@ std::size_t MinRowBytes(const DepthPixelFormat& format, int width_px) noexcept {
     case Conversion::kSwapBytes:
       break;
   }
-  return 2 * width;
+  return format.bytes_per_pixel * width;
 }
 
 void ConvertRow(const DepthPixelFormat& format, const std::byte* row,

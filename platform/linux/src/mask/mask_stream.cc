@@ -58,33 +58,24 @@ bool MaskHeader::Parse(std::span<const std::byte, kSize> bytes) noexcept {
          stride_bytes >= width_px && stride_bytes <= 4 * kMaxSide_px;
 }
 
-hal::Fault MaskStream::CheckName(const std::string& name) noexcept {
+bool MaskStream::IsName(const std::string& name) noexcept {
   const bool is_file = name.starts_with(kFilePrefix) && name.size() > kFilePrefix.size();
-  const bool is_shm = name.size() > 1 && name[0] == '/' && name.find('/', 1) == std::string::npos;
-  if (is_file || is_shm) return {};
-  return hal::MakeFault(Status::kInvalidUri,
-                        "mask stream '%s': '/NAME' of a shared memory object or 'file:PATH' is "
-                        "needed, see docs/masks.md",
-                        name.c_str());
+  return is_file || (name.size() > 1 && name[0] == '/' && name.find('/', 1) == std::string::npos);
 }
 
 MaskStream::MaskStream(const std::string& name, int width_px, int height_px,
                        std::int64_t max_age_ns)
-    : name_(name),
+    : MaskSource(name, width_px, height_px, max_age_ns),
       path_(PathOf(name)),
-      width_px_(width_px),
-      height_px_(height_px),
-      max_age_ns_(max_age_ns),
       incoming_(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px)),
       mask_(incoming_.size()) {}
 
-Status MaskStream::Attach(DepthFrame& frame) noexcept {
-  frame.mask = {};
-  const Reading reading = ReadNewest();
-  switch (reading) {
+Status MaskStream::DoNewest(Newest& newest) noexcept {
+  switch (ReadNewest()) {
     case Reading::kDone:
     case Reading::kUnchanged:
-      break;
+      newest = {mask_.data(), stamp_ns_};
+      return Status::kOk;
     case Reading::kMissing:
       hal::AddSaturating(counters_.missing);
       return Status::kNotFound;
@@ -95,23 +86,10 @@ Status MaskStream::Attach(DepthFrame& frame) noexcept {
       hal::AddSaturating(counters_.corrupt);
       return Status::kCorrupt;
     case Reading::kTorn:
-      hal::AddSaturating(counters_.torn);
-      return Status::kWouldBlock;
+      break;
   }
-  if (frame.depth.width_px != width_px_ || frame.depth.height_px != height_px_) {
-    hal::AddSaturating(counters_.wrong_size);
-    return Status::kMaskSizeMismatch;
-  }
-  // Stamps may be anything: compared without overflow.
-  std::int64_t apart_ns = 0;
-  const bool overflow = __builtin_sub_overflow(frame.stamp_ns, stamp_ns_, &apart_ns);
-  if (overflow || apart_ns > max_age_ns_ || apart_ns < -max_age_ns_) {
-    hal::AddSaturating(counters_.late);
-    return Status::kTimeout;
-  }
-  hal::AddSaturating(counters_.used);
-  frame.mask = {mask_.data(), width_px_, height_px_, width_px_};
-  return Status::kOk;
+  hal::AddSaturating(counters_.torn);
+  return Status::kWouldBlock;
 }
 
 MaskStream::Reading MaskStream::ReadNewest() noexcept {

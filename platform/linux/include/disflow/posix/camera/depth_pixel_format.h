@@ -25,12 +25,16 @@ struct DepthPixelFormat {
   bool has_metric_unit;        ///< Made for depth: a known model's unit applies.
   std::uint8_t planes_before;  ///< Images of the same size ahead of the depth image.
   Conversion conversion;
+  std::uint8_t bytes_per_pixel = 2;  ///< Of formats that are not packed.
 };
 
 /// Formats of `v4l2:` in the order in which they are preferred.
 [[nodiscard]] std::span<const DepthPixelFormat> V4l2DepthFormats() noexcept;
 /// Formats of `libcamera:` in the order in which they are preferred.
 [[nodiscard]] std::span<const DepthPixelFormat> LibcameraDepthFormats() noexcept;
+
+/// Masks, see MaskCamera: 8 bits a pixel. In none of the lists above.
+[[nodiscard]] const DepthPixelFormat& V4l2MaskFormat() noexcept;
 
 /// @return The format of that name, or null.
 [[nodiscard]] const DepthPixelFormat* FindFormat(std::span<const DepthPixelFormat> formats,
