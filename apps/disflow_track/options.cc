@@ -341,6 +341,7 @@ Options ParseCommandLine(int argc, char** argv, bool& exit_now) {
   AddCameraPose(app, options.camera_pose);
   AddRealtime(app, options.realtime);
   AddOutput(app, options, settings.common);
+  AddViewOptions(app, options.view);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& answer) {

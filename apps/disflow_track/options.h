@@ -9,6 +9,7 @@
 #include "disflow/hal/mavlink/messages.h"
 #include "object_options.h"
 #include "realtime_options.h"
+#include "view_output.h"
 
 namespace disflow::apps {
 
@@ -43,6 +44,7 @@ struct Options {
   double mask_max_age_s = 0.1;
   CameraPoseOptions camera_pose;
   RealtimeOptions realtime;
+  ViewOptions view;
   bool headless = false;
   bool timing = true;  ///< false: time columns are written as 0.
 

@@ -15,6 +15,7 @@
 #include "side_inputs.h"
 #include "stop_signal.h"
 #include "tracked_object.h"
+#include "view_output.h"
 #include "worker_pool.h"
 
 namespace disflow::apps {
@@ -60,6 +61,7 @@ class TrackingRun {
         source_(*sensor_.get(), clock_, options.rate, options.frames, console_),
         objects_(MakeObjects(options)),
         dds_(options.dds_link, ChannelsOf(objects_), info_.live, console_),
+        view_(options.view, ChannelsOf(objects_), console_),
         results_(options.objects.size()),
         reports_(options.objects.size()) {}
 
@@ -80,6 +82,7 @@ class TrackingRun {
     outputs_.WriteMeshes(objects_, options_.mesh_resolution_m);
     const bool complete = outputs_.Finish();
     Report(seconds);
+    view_.EndOfInput();
     return status == kDone && !complete ? kOutputFailed : status;
   }
 
@@ -233,6 +236,7 @@ class TrackingRun {
   DepthFrame frame_;
   TrackedObjects objects_;
   DdsOutput dds_;
+  ViewOutput view_;
   std::vector<FrameResult> results_;
   std::vector<RunReport> reports_;
   DurationHistogram all_objects_;

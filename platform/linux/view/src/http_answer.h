@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <libwebsockets.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "disflow/posix/view/web_server.h"
+#include "request.h"
+
+/// @file
+/// Reading and writing of HTTP headers with libwebsockets.
+
+namespace disflow::posix {
+
+/// @return Empty if the header was not given, or is longer than anything that is of use here.
+[[nodiscard]] std::string HeaderOf(lws* wsi, lws_token_indexes header);
+[[nodiscard]] std::string CookieOf(lws* wsi, const std::string& name);
+/// @param name With the equals sign.
+[[nodiscard]] std::string QueryOf(lws* wsi, const char* name);
+
+/// They go with every answer.
+[[nodiscard]] const lws_protocol_vhost_options* SecurityHeaders();
+
+/// @param buffer Scratch, with LWS_PRE bytes ahead.
+[[nodiscard]] bool WriteHeader(lws* wsi, const WebAsset& asset, std::vector<std::uint8_t>& buffer);
+/// To the page, which from then on needs no token in its address.
+[[nodiscard]] bool WriteRedirect(lws* wsi, const std::string& cookie,
+                                 std::vector<std::uint8_t>& buffer);
+/// Says why in a sentence. @return -1: the connection is to be closed.
+[[nodiscard]] int Refuse(lws* wsi, Verdict verdict);
+
+}  // namespace disflow::posix

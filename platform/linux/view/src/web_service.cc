@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "web_service.h"
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+#include "http_answer.h"
+#include "listen_check.h"
+
+namespace disflow::posix {
+namespace {
+
+constexpr unsigned kHeaderBytes = 4096;  ///< Of a request, all lines together.
+constexpr std::size_t kReceiveBytes = 64;
+constexpr int kDownload_s = 30;
+constexpr int kCommandsPerSecond = 20;
+constexpr lws_usec_t kSecond_us = 1'000'000;
+
+}  // namespace
+
+/// A browser that has the page open.
+struct WebService::Viewer {
+  MessageBoard::Cursor cursor;
+  MessageBoard::Message message;  ///< Being sent.
+  std::size_t sent = 0;
+  lws_usec_t second_begin_us = 0;
+  int commands = 0;  ///< Since then.
+};
+
+WebService::WebService(WebServerOptions options, std::span<const WebAsset> assets,
+                       const MessageBoard& board, WebServer::CommandHandler on_command)
+    : options_(std::move(options)),
+      assets_(assets),
+      board_(board),
+      on_command_(std::move(on_command)),
+      buffer_(LWS_PRE + kChunkBytes) {}
+
+WebService::~WebService() {
+  if (context_ != nullptr) lws_context_destroy(context_);
+}
+
+hal::Fault WebService::Open() {
+  const hal::Fault fault = CheckListening(options_.address);
+  if (!fault.ok()) return fault;
+  lws_set_log_level(0, nullptr);
+  protocols_[0] = {"http", OnEvent, sizeof(Download), 0, 0, nullptr, 0};
+  protocols_[1] = {WebServer::kProtocol, OnEvent, sizeof(Viewer*), kReceiveBytes, 0, nullptr, 0};
+  retry_.secs_since_valid_ping = static_cast<std::uint16_t>(options_.ping_after_s);
+  retry_.secs_since_valid_hangup = static_cast<std::uint16_t>(options_.hang_up_after_s);
+
+  const WebAddress& address = options_.address;
+  const bool is_any = address.host == "0.0.0.0" || address.host == "::";
+  const auto connections = static_cast<unsigned>(options_.max_connections);
+  lws_context_creation_info info{};
+  info.port = address.port;
+  info.iface = is_any ? nullptr : address.host.c_str();
+  info.protocols = protocols_.data();
+  info.options = LWS_SERVER_OPTION_FAIL_UPON_UNABLE_TO_BIND;
+  if (!address.is_ipv6) info.options |= LWS_SERVER_OPTION_DISABLE_IPV6;
+  info.gid = static_cast<decltype(info.gid)>(-1);
+  info.uid = static_cast<decltype(info.uid)>(-1);
+  info.user = this;
+  info.headers = SecurityHeaders();
+  info.server_string = "disflow";
+  info.max_http_header_data = kHeaderBytes;
+  // Everybody has room for a request: one that comes slowly keeps nobody else waiting.
+  info.max_http_header_pool = static_cast<unsigned short>(connections);
+  info.timeout_secs = static_cast<unsigned>(options_.request_timeout_s);
+  info.timeout_secs_ah_idle = info.timeout_secs;
+  info.keepalive_timeout = options_.request_timeout_s;
+  info.retry_and_idle_policy = &retry_;
+  constexpr unsigned kOwnDescriptors = 8;
+  info.fd_limit_per_thread = connections + kOwnDescriptors;
+  context_ = lws_create_context(&info);
+  if (context_ == nullptr) {
+    return hal::MakeFault(Status::kIoError, "%s: cannot be listened on",
+                          address.Url(address.port).c_str());
+  }
+  port_ = lws_get_vhost_listen_port(lws_get_vhost_by_name(context_, "default"));
+  // Browsers keep cookies by host, not by port.
+  cookie_name_ = "disflow_" + std::to_string(port_);
+  return {};
+}
+
+void WebService::Turn() { (void)lws_service(context_, 0); }
+
+void WebService::Wake() noexcept { lws_cancel_service(context_); }
+
+int WebService::OnEvent(lws* wsi, lws_callback_reasons reason, void* user, void* in,
+                        std::size_t size) {
+  auto* const self = static_cast<WebService*>(lws_context_user(lws_get_context(wsi)));
+  return self->Handle(wsi, reason, user, in, size);
+}
+
+int WebService::Handle(lws* wsi, lws_callback_reasons reason, void* user, void* in,
+                       std::size_t size) {
+  switch (reason) {
+    case LWS_CALLBACK_FILTER_NETWORK_CONNECTION:
+      return connections_.size() < static_cast<std::size_t>(options_.max_connections) ? 0 : 1;
+    case LWS_CALLBACK_SERVER_NEW_CLIENT_INSTANTIATED:
+      connections_.insert(wsi);
+      // libwebsockets itself forgets about some that ask for what it does not know.
+      lws_set_timer_usecs(wsi, options_.connection_timeout_s * kSecond_us);
+      return 0;
+    case LWS_CALLBACK_TIMER:
+      // Viewers stay: cancelling it for them is not reliable.
+      return std::strcmp(lws_get_protocol(wsi)->name, WebServer::kProtocol) == 0 ? 0 : -1;
+    case LWS_CALLBACK_WSI_DESTROY:
+      connections_.erase(wsi);
+      return 0;
+    case LWS_CALLBACK_HTTP:
+      return AnswerRequest(wsi, *static_cast<Download*>(user),
+                           {static_cast<const char*>(in), size});
+    case LWS_CALLBACK_HTTP_WRITEABLE:
+      return ContinueDownload(wsi, *static_cast<Download*>(user));
+    case LWS_CALLBACK_HTTP_CONFIRM_UPGRADE:
+      return AnswerUpgrade(wsi);
+    case LWS_CALLBACK_ESTABLISHED:
+      *static_cast<Viewer**>(user) = new Viewer;
+      ++viewers_;
+      return lws_callback_on_writable(wsi) < 0 ? -1 : 0;
+    case LWS_CALLBACK_CLOSED:
+      delete std::exchange(*static_cast<Viewer**>(user), nullptr);
+      --viewers_;
+      return 0;
+    case LWS_CALLBACK_SERVER_WRITEABLE:
+      return SendNext(wsi, **static_cast<Viewer**>(user));
+    case LWS_CALLBACK_RECEIVE:
+      return TakeCommand(wsi, **static_cast<Viewer**>(user),
+                         {static_cast<const std::uint8_t*>(in), size});
+    case LWS_CALLBACK_EVENT_WAIT_CANCELLED:
+      (void)lws_callback_on_writable_all_protocol(context_, &protocols_[1]);
+      return 0;
+    default:
+      return 0;
+  }
+}
+
+Request WebService::Read(lws* wsi) const {
+  Request request;
+  request.is_get = lws_hdr_total_length(wsi, WSI_TOKEN_GET_URI) > 0;
+  request.has_body = lws_hdr_total_length(wsi, WSI_TOKEN_HTTP_TRANSFER_ENCODING) > 0 ||
+                     lws_hdr_total_length(wsi, WSI_TOKEN_HTTP_CONTENT_LENGTH) > 0;
+  request.host = HeaderOf(wsi, WSI_TOKEN_HOST);
+  request.origin = HeaderOf(wsi, WSI_TOKEN_ORIGIN);
+  request.cookie_token = CookieOf(wsi, cookie_name_);
+  request.query_token = QueryOf(wsi, "token=");
+  return request;
+}
+
+int WebService::AnswerRequest(lws* wsi, Download& download, std::string_view path) {
+  const Verdict verdict = Judge(Read(wsi), {options_.token, options_.address.is_loopback});
+  if (verdict == Verdict::kRememberToken) return RedirectWithCookie(wsi);
+  if (verdict != Verdict::kAllowed) return Refuse(wsi, verdict);
+  const auto asset = std::find_if(assets_.begin(), assets_.end(),
+                                  [path](const WebAsset& item) { return item.path == path; });
+  if (asset == assets_.end()) return Refuse(wsi, Verdict::kNotFound);
+  download = {&*asset, 0};
+  if (!WriteHeader(wsi, *asset, buffer_)) return -1;
+  lws_set_timeout(wsi, PENDING_TIMEOUT_HTTP_CONTENT, kDownload_s);
+  return lws_callback_on_writable(wsi) < 0 ? -1 : 0;
+}
+
+int WebService::ContinueDownload(lws* wsi, Download& download) {
+  if (download.asset == nullptr) return -1;
+  const auto left = download.asset->gzip.subspan(download.sent);
+  const auto chunk = left.first(std::min(left.size(), kChunkBytes));
+  std::memcpy(buffer_.data() + LWS_PRE, chunk.data(), chunk.size());
+  download.sent += chunk.size();
+  const bool is_last = chunk.size() == left.size();
+  if (lws_write(wsi, buffer_.data() + LWS_PRE, chunk.size(),
+                is_last ? LWS_WRITE_HTTP_FINAL : LWS_WRITE_HTTP) < 0) {
+    return -1;
+  }
+  if (!is_last) return lws_callback_on_writable(wsi) < 0 ? -1 : 0;
+  download.asset = nullptr;
+  return lws_http_transaction_completed(wsi) != 0 ? -1 : 0;
+}
+
+int WebService::AnswerUpgrade(lws* wsi) {
+  const Verdict verdict = Judge(Read(wsi), {options_.token, options_.address.is_loopback});
+  Verdict answer = verdict == Verdict::kRememberToken ? Verdict::kAllowed : verdict;
+  if (answer == Verdict::kAllowed) {
+    const bool known = HeaderOf(wsi, WSI_TOKEN_GET_URI) == WebServer::kSocketPath &&
+                       HeaderOf(wsi, WSI_TOKEN_PROTOCOL) == WebServer::kProtocol;
+    if (!known) answer = Verdict::kNotFound;
+    if (viewers_ >= options_.max_viewers) answer = Verdict::kBusy;
+  }
+  if (answer == Verdict::kAllowed) return 0;
+  (void)Refuse(wsi, answer);
+  return -1;
+}
+
+int WebService::RedirectWithCookie(lws* wsi) {
+  const std::string cookie =
+      cookie_name_ + "=" + options_.token + "; Path=/; HttpOnly; SameSite=Lax";
+  (void)WriteRedirect(wsi, cookie, buffer_);
+  return -1;
+}
+
+int WebService::SendNext(lws* wsi, Viewer& viewer) {
+  if (viewer.message == nullptr) {
+    viewer.message = board_.Next(viewer.cursor);
+    viewer.sent = 0;
+    if (viewer.message == nullptr) return 0;
+  }
+  const auto left = std::span(*viewer.message).subspan(viewer.sent);
+  const auto chunk = left.first(std::min(left.size(), kChunkBytes));
+  std::memcpy(buffer_.data() + LWS_PRE, chunk.data(), chunk.size());
+  const bool is_last = chunk.size() == left.size();
+  const int flags = lws_write_ws_flags(LWS_WRITE_BINARY, viewer.sent == 0, is_last);
+  if (lws_write(wsi, buffer_.data() + LWS_PRE, chunk.size(),
+                static_cast<lws_write_protocol>(flags)) < static_cast<int>(chunk.size())) {
+    return -1;
+  }
+  viewer.sent += chunk.size();
+  if (is_last) viewer.message.reset();
+  return lws_callback_on_writable(wsi) < 0 ? -1 : 0;
+}
+
+int WebService::TakeCommand(lws* wsi, Viewer& viewer, std::span<const std::uint8_t> bytes) {
+  const lws_usec_t now_us = lws_now_usecs();
+  if (now_us - viewer.second_begin_us > kSecond_us) {
+    viewer.second_begin_us = now_us;
+    viewer.commands = 0;
+  }
+  const bool is_whole = lws_is_first_fragment(wsi) != 0 && lws_is_final_fragment(wsi) != 0;
+  if (!is_whole || lws_frame_is_binary(wsi) == 0 || bytes.size() != WebServer::kCommandBytes ||
+      ++viewer.commands > kCommandsPerSecond) {
+    lws_close_reason(wsi, LWS_CLOSE_STATUS_POLICY_VIOLATION, nullptr, 0);
+    return -1;
+  }
+  on_command_(bytes.first<WebServer::kCommandBytes>());
+  return 0;
+}
+
+}  // namespace disflow::posix
