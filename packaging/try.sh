@@ -46,7 +46,7 @@ else
   config="$root/tree/etc/disflow/track.toml"
   case "$architecture" in
     arm64) try_track qemu-aarch64 "$root/tree/usr/bin/disflow_track" ;;
-    armhf) try_track qemu-arm "$root/tree/usr/bin/disflow_track" ;;
+    armhf) try_track qemu-arm -L "${DISFLOW_ARMHF_ROOT:-/}" "$root/tree/usr/bin/disflow_track" ;;
     *) try_track "$root/tree/usr/bin/disflow_track" ;;
   esac
   echo "$(basename "$package"): unpacked and run"

@@ -3,7 +3,6 @@
 
 #include <netdb.h>
 #include <netinet/in.h>
-#include <sys/socket.h>
 
 #include <cstring>
 #include <memory>
@@ -55,10 +54,10 @@ int BindAny(int fd, int family, std::uint16_t port) noexcept {
   return ::bind(fd, reinterpret_cast<const sockaddr*>(&own), sizeof(own));
 }
 
-hal::Fault Connect(const addrinfo& peer, const hal::LinkAddress& address, const char* name,
+hal::Fault Connect(const sockaddr_storage& peer, socklen_t peer_size,
+                   const hal::LinkAddress& address, const char* name,
                    FileDescriptor& out) noexcept {
-  FileDescriptor fd(
-      ::socket(peer.ai_family, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, peer.ai_protocol));
+  FileDescriptor fd(::socket(peer.ss_family, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
   if (!fd.is_open()) return ErrnoFault(Status::kIoError, name, "cannot make a socket", errno);
 
   // Without it a broadcast address is refused; for other addresses it changes nothing.
@@ -66,7 +65,7 @@ hal::Fault Connect(const addrinfo& peer, const hal::LinkAddress& address, const 
   if (::setsockopt(fd.get(), SOL_SOCKET, SO_BROADCAST, &yes, sizeof(yes)) != 0) {
     return ErrnoFault(Status::kIoError, name, "cannot allow broadcast", errno);
   }
-  if (address.bind_port != 0 && BindAny(fd.get(), peer.ai_family, address.bind_port) != 0) {
+  if (address.bind_port != 0 && BindAny(fd.get(), peer.ss_family, address.bind_port) != 0) {
     if (errno == EADDRINUSE) {
       return hal::MakeFault(Status::kBusy,
                             "%s: own port %u is in use by another program; choose another ?bind= "
@@ -76,7 +75,7 @@ hal::Fault Connect(const addrinfo& peer, const hal::LinkAddress& address, const 
     const Status status = errno == EACCES ? Status::kPermissionDenied : Status::kIoError;
     return ErrnoFault(status, name, "cannot bind to the ?bind= port", errno);
   }
-  if (::connect(fd.get(), peer.ai_addr, peer.ai_addrlen) != 0) {
+  if (::connect(fd.get(), reinterpret_cast<const sockaddr*>(&peer), peer_size) != 0) {
     return ErrnoFault(Status::kIoError, name, "no route to the peer", errno);
   }
   out = std::move(fd);
@@ -89,6 +88,7 @@ UdpLink::UdpLink(const hal::LinkAddress& address) : address_(address), name_(Nam
 
 hal::Fault UdpLink::DoOpen() noexcept {
   if (socket_.is_open()) return {};
+  if (peer_size_ > 0) return Connect(peer_, peer_size_, address_, name(), socket_);
   AddressList list(nullptr, &::freeaddrinfo);
   hal::Fault fault = Resolve(address_, name(), list);
   if (!fault.ok()) return fault;
@@ -97,7 +97,13 @@ hal::Fault UdpLink::DoOpen() noexcept {
   for (const int family : {AF_INET, AF_INET6}) {
     for (const addrinfo* peer = list.get(); peer != nullptr; peer = peer->ai_next) {
       if (peer->ai_family != family) continue;
-      fault = Connect(*peer, address_, name(), socket_);
+      sockaddr_storage found{};
+      std::memcpy(&found, peer->ai_addr, peer->ai_addrlen);
+      fault = Connect(found, peer->ai_addrlen, address_, name(), socket_);
+      if (fault.ok()) {
+        peer_ = found;
+        peer_size_ = peer->ai_addrlen;
+      }
       // A port in use is the user's to solve; another family would only hide it.
       if (fault.ok() || fault.status == Status::kBusy) return fault;
     }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <sys/socket.h>
+
 #include <string>
 
 #include "disflow/hal/byte_link.h"
@@ -11,8 +13,9 @@ namespace disflow::posix {
 
 /// One datagram per message to one peer, and datagrams from that peer back.
 ///
-/// The host is looked up in Open() (which may wait for a name server); where a name has both kinds
-/// of addresses, IPv4 is taken, since ground stations listen there. A peer that is not there is no
+/// The host is looked up in the first Open() that succeeds, which may wait for a name server; later
+/// ones take the same address and never wait. Where a name has both kinds of addresses, IPv4 is
+/// taken, since ground stations listen there. A peer that is not there is no
 /// error: what it refuses is counted.
 class UdpLink final : public hal::ByteLink {
  public:
@@ -30,6 +33,8 @@ class UdpLink final : public hal::ByteLink {
 
   hal::LinkAddress address_;
   std::string name_;
+  sockaddr_storage peer_{};
+  socklen_t peer_size_ = 0;  ///< 0: not looked up yet.
   FileDescriptor socket_;
   hal::LinkCounters counters_;
 };
