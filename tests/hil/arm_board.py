@@ -9,7 +9,7 @@ import unittest
 
 import setting
 from guest import Guest
-from live import SCRIPT, decode, make_kernel, replay, rows_of
+from live import SCRIPT, GuestOutput, decode, make_kernel, replay, rows_of
 from sequences import Sequence
 
 FRAMES = 90
@@ -54,7 +54,7 @@ def _packaged(program):
     return os.path.join(root, "usr", "bin", os.path.basename(program))
 
 
-class ArmBoard(unittest.TestCase):
+class ArmBoard(GuestOutput, unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         programs = [os.path.join(setting.arm_programs, name)
@@ -78,18 +78,15 @@ camera
 track board "{_SENSOR}" --link "{_UART}"
 unplug
 """, timeout_s=400, serial="file:" + cls.uart)
-        cls.rows = rows_of(cls.out["board.csv"])
+        cls.trajectory = rows_of(cls.out["board.csv"])
         cls.messages = decode(cls.uart)
-
-    def text(self, name):
-        return self.out[name].decode()
 
     def of(self, name):
         return [message for message in self.messages if message["message"] == name]
 
     def test_every_frame_is_tracked_and_sent_over_the_uart(self):
         self.assertIn("board status 0", self.text("log"), self.text("board"))
-        self.assertEqual(len(self.rows), FRAMES, self.text("board"))
+        self.assertEqual(len(self.trajectory), FRAMES, self.text("board"))
         self.assertEqual(len(self.of("ODOMETRY")), FRAMES)
         self.assertEqual(len(self.of("DISFLOW_STATUS")), FRAMES)
         self.assertIn(" 0 dropped", self.text("board").split("serial://")[-1])
@@ -97,11 +94,11 @@ unplug
         self.assertEqual(sequence, [i % 256 for i in range(len(sequence))])
 
     def test_poses_on_the_line_are_those_of_a_replay_on_this_machine(self):
-        frames = [(row, number + int(row["dropped"])) for number, row in enumerate(self.rows)]
+        frames = [(row, number + int(row["dropped"])) for number, row in enumerate(self.trajectory)]
         replayed = replay(self.sequence, "replay_arm", frames)
         sent = self.of("ODOMETRY")
         worst_m, worst_deg, equal = 0.0, 0.0, 0
-        for message, row, here in zip(sent, self.rows, replayed):
+        for message, row, here in zip(sent, self.trajectory, replayed):
             self.assertEqual(message["time_usec"], int(float(row["timestamp"]) * 1e6 + 0.5))
             metres, degrees = difference(((message["x"], message["y"], message["z"]), tuple(message["q"])),
                                          pose_frd(here))
@@ -112,7 +109,7 @@ unplug
                                f"{equal} equal to the bit")
         self.assertLess(worst_m, 1e-4)
         self.assertLess(worst_deg, 0.01)
-        self.assertGreater(sum(row["state"] == "tracking" for row in self.rows), 0.8 * FRAMES)
+        self.assertGreater(sum(row["state"] == "tracking" for row in self.trajectory), 0.8 * FRAMES)
 
     def test_status_on_the_line_tells_no_loss(self):
         last = self.of("DISFLOW_STATUS")[-1]

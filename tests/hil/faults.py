@@ -6,7 +6,7 @@ import unittest
 
 import setting
 from guest import Guest
-from live import SCRIPT, check_trajectory, decode, make_kernel, rows_of
+from live import SCRIPT, GuestOutput, check_trajectory, decode, make_kernel
 from sequences import Sequence
 
 FRAMES = 40
@@ -31,7 +31,7 @@ def _refusals(k_option):
     }
 
 
-class CameraFaults(unittest.TestCase):
+class CameraFaults(GuestOutput, unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         kernel = make_kernel("amd64")
@@ -98,13 +98,6 @@ usleep 500000; kill -STOP $track; usleep 600000; kill -CONT $track
 played; kill -INT $track; wait $track; echo "stopped status $?"
 unplug
 """
-
-    def text(self, name):
-        return self.out[name].decode()
-
-    def rows(self, name):
-        self.assertIn(f"{name} status 0", self.text("log"), self.text(name))
-        return rows_of(self.out[name + ".csv"])
 
     def test_what_cannot_be_had_is_refused_with_the_reason(self):
         words = {"format": "it has: Z16", "size": "sizes: 320x240", "rate": "rates: 30",

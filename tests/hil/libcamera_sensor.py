@@ -5,7 +5,7 @@ import unittest
 
 import setting
 from guest import Guest
-from live import SCRIPT, make_kernel, rows_of
+from live import SCRIPT, GuestOutput, make_kernel, rows_of
 from sequences import Sequence
 
 FRAMES = 45
@@ -31,7 +31,7 @@ name_controller() {
 """
 
 
-class _Libcamera:
+class _Libcamera(GuestOutput):
     """The tests of both machines."""
 
     arch = ""
@@ -78,9 +78,6 @@ start first; wait $track; echo "first status $?"
 ready; start second; played; kill -INT $track; wait $track; echo "second status $?"
 unplug
 """
-
-    def text(self, name):
-        return self.out[name].decode()
 
     def test_camera_is_listed(self):
         self.assertIn("libcamera:0  ", self.text("list"))

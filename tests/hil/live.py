@@ -29,6 +29,19 @@ def rows_of(text):
     return list(csv.DictReader(io.StringIO(text.decode())))
 
 
+class GuestOutput:
+    """What a test reads of the files that its guest left behind: a class's `out`."""
+    out = {}
+
+    def text(self, name):
+        return self.out[name].decode()
+
+    def rows(self, name):
+        """The trajectory of a run that ended well."""
+        self.assertIn(f"{name} status 0", self.text("log"), self.text(name))
+        return rows_of(self.out[name + ".csv"])
+
+
 def replay(sequence, name, rows, options=()):
     """Rows of a replay on this machine of what the guest saw: [(row, index of its frame)]."""
     folder = sequence.with_stamps(os.path.join(setting.folder, name),

@@ -6,7 +6,7 @@ import unittest
 
 import setting
 from guest import Guest
-from live import make_kernel
+from live import GuestOutput, make_kernel
 
 _K = "depth_scale=0.001&K=500,500,320,180"
 # What the driver offers in a format that is depth's, and in one that is none.
@@ -16,7 +16,7 @@ _SIZES = ["320x180", "640x360", "640x480"]
 _ODD_SIZES = ["321x181", "1x1", "8192x8192", "640x361"]
 
 
-class Vivid(unittest.TestCase):
+class Vivid(GuestOutput, unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         kernel = make_kernel("amd64")
@@ -42,9 +42,6 @@ class Vivid(unittest.TestCase):
         lines.append(f'disflow_track --sensor "v4l2:/dev/video0?format=Y16&width=320&height=180&{_K}" --frames 20 '
                      "--mask-stream v4l2:/dev/video1 --headless 2>/out/masked")
         return "\n".join(lines) + "\n"
-
-    def text(self, name):
-        return self.out[name].decode()
 
     def test_every_16_bit_format_delivers_or_says_what_there_is(self):
         for name in _DELIVERED:

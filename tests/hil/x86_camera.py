@@ -5,7 +5,7 @@ import unittest
 
 import setting
 from guest import Guest
-from live import SCRIPT, check_trajectory, make_kernel, rows_of
+from live import SCRIPT, GuestOutput, check_trajectory, make_kernel
 from sequences import Sequence
 
 FRAMES = 90
@@ -13,7 +13,7 @@ RATE_HZ = 30
 FAST_HZ = 200
 _SENSOR = "v4l2:/dev/video0?format=Z16&depth_scale=0.001"
 
-class CameraOnX86(unittest.TestCase):
+class CameraOnX86(GuestOutput, unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         kernel = make_kernel("amd64")
@@ -37,13 +37,6 @@ camera --fps {FAST_HZ}
 track fast "{_SENSOR}&intrinsics=/cam.toml"
 unplug
 """, timeout_s=400)
-
-    def text(self, name):
-        return self.out[name].decode()
-
-    def rows(self, name):
-        self.assertIn(f"{name} status 0", self.text("log"), self.text(name))
-        return rows_of(self.out[name + ".csv"])
 
     def test_camera_is_listed_with_identity_format_size_and_rate(self):
         listing = self.text("list")
