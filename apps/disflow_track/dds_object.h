@@ -5,6 +5,7 @@
 
 #include "dds_address.h"
 #include "dds_clock.h"
+#include "dds_model.h"
 #include "dds_motion.h"
 #include "dds_status.h"
 #include "disflow/posix/dds/ros_node.h"
@@ -17,23 +18,17 @@ class DdsObject {
  public:
   using TransformPublisher = posix::RosPublisher<posix::ros::TFMessage>;
 
-  /// What was written; all objects' together.
-  struct Counters {
-    std::uint64_t sent = 0;
-    std::uint64_t failed = 0;
-  };
-
   /// @param signal Raised when the object has news.
   /// @throws Failure kOutputFailed.
   DdsObject(const DdsAddress& address, ObjectChannel& channel, NewsSignal& signal, DdsClock& clock,
-            posix::RosNode& node, TransformPublisher& transforms, Counters& counters);
+            posix::RosNode& node, TransformPublisher& transforms, DdsCounters& counters);
   DdsObject(const DdsObject&) = delete;
   DdsObject& operator=(const DdsObject&) = delete;
 
-  /// Publishes what is new.
-  void Turn();
+  /// Publishes what is new, answers what was asked.
+  void Turn(std::int64_t now_ns);
   /// Publishes what waits for its moment: nothing more comes.
-  void Finish();
+  void Finish(std::int64_t now_ns);
 
   /// Results that were never published since DDS was too slow.
   [[nodiscard]] std::uint32_t lost() const { return reader_.lost(); }
@@ -41,15 +36,13 @@ class DdsObject {
  private:
   void PublishResult(const FrameResult& result);
   void PublishPath();
-  template <class Message>
-  void Publish(posix::RosPublisher<Message>& publisher, const Message& message) {
-    ++(publisher.Publish(message) ? counters_.sent : counters_.failed);
-  }
+  void ServeReset();
 
+  ObjectChannel& channel_;
   ChannelReader& reader_;
   DdsClock& clock_;
   TransformPublisher& transforms_;
-  Counters& counters_;
+  DdsCounters& counters_;
   DdsFrames frames_;
   DdsPath path_;
   std::int64_t path_ns_ = 0;  ///< ROS time of the path published last.
@@ -59,6 +52,8 @@ class DdsObject {
   posix::RosPublisher<posix::ros::TwistWithCovarianceStamped> twist_;
   posix::RosPublisher<posix::ros::Path> path_publisher_;
   posix::RosPublisher<posix::ros::DiagnosticArray> status_publisher_;
+  posix::RosService<posix::ros::TriggerRequest, posix::ros::TriggerResponse> reset_;
+  DdsModel model_;
 };
 
 }  // namespace disflow::apps

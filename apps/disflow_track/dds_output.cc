@@ -8,6 +8,7 @@
 
 #include "dds_address.h"
 #include "dds_object.h"
+#include "disflow/posix/monotonic_clock.h"
 #include "exit_status.h"
 
 namespace disflow::apps {
@@ -73,18 +74,19 @@ class DdsPublisher {
     while (!stop_) {
       // Also without news: requests do not raise the signal.
       (void)signal_.WaitFor(kPatience_ns);
-      for (DdsObject& object : objects_) object.Turn();
+      for (DdsObject& object : objects_) object.Turn(steady_.NowNs());
     }
-    for (DdsObject& object : objects_) object.Finish();
+    for (DdsObject& object : objects_) object.Finish(steady_.NowNs());
     node_.WaitForAcknowledgments(kFarewell_ns);
   }
 
   std::string uri_;
   NewsSignal signal_;
   DdsClock clock_;
+  posix::MonotonicClock steady_;
   posix::RosNode node_;
   DdsObject::TransformPublisher transforms_;
-  DdsObject::Counters counters_;
+  DdsCounters counters_;
   std::deque<DdsObject> objects_;
   std::atomic<bool> stop_ = false;
   std::thread thread_;

@@ -7,16 +7,17 @@ import { MessageReader, MessageWriter } from "@foxglove/rosmsg2-serialization";
 
 const humble = definitions.ros2humble;
 
-/** All definitions that the root needs, the root first. */
-function withDependencies(root) {
+/** All definitions that the root needs, the root first; `own` are looked at before ROS's. */
+function withDependencies(root, own = {}) {
   const found = new Map([[root.name ?? "", root]]);
   for (const definition of found.values()) {
     for (const field of definition.definitions) {
       if (!field.isComplex || field.isConstant) continue;
       const name = field.type;
       if (name === "time" || name === "duration" || found.has(name)) continue;
-      if (!humble[name]) throw new Error(`no definition of ${name}`);
-      found.set(name, humble[name]);
+      const needed = own[name] ?? humble[name];
+      if (!needed) throw new Error(`no definition of ${name}`);
+      found.set(name, needed);
     }
   }
   return [...found.values()];
@@ -25,8 +26,8 @@ function withDependencies(root) {
 /** Definitions by a ROS name as nav_msgs/Odometry, or by the text of a .msg file. */
 function definitionsOf(message) {
   if (humble[message]) return withDependencies(humble[message]);
-  const [root, ...others] = parse(message, { ros2: true });
-  return [...withDependencies(root), ...others];
+  const [root, ...own] = parse(message, { ros2: true, skipTypeFixup: true });
+  return withDependencies(root, Object.fromEntries(own.map((one) => [one.name, one])));
 }
 
 export const readerOf = (message) => new MessageReader(definitionsOf(message));

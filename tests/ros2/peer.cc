@@ -157,8 +157,9 @@ class Peer {
   }
 
  private:
-  static constexpr int kTurns = 500;
+  static constexpr int kTurns = 1000;
   static constexpr std::chrono::milliseconds kTurn{10};
+  static constexpr std::chrono::milliseconds kSettle{500};
 
   template <class Condition>
   static bool Await(Condition&& condition) {
@@ -190,6 +191,7 @@ class Peer {
     if (writer != nullptr) return writer;
     dds::DataWriterQos qos = dds::DATAWRITER_QOS_DEFAULT;
     Apply(qos_name, qos);
+    qos.reliable_writer_qos().times.heartbeatPeriod = eprosima::fastrtps::Duration_t(0.1);
     return writer = publisher_->create_datawriter(TopicOf(topic, type), qos);
   }
 
@@ -200,12 +202,15 @@ class Peer {
 
   bool Publish(const std::string& topic, const std::string& type, const std::string& qos,
                const std::string& path) {
+    const bool is_new = writers_.count(topic) == 0;
     dds::DataWriter* const writer = WriterOf(topic, type, qos);
     const bool matched = Await([writer] {
       dds::PublicationMatchedStatus status;
       writer->get_publication_matched_status(status);
       return status.current_count > 0;
     });
+    // The other side may not know of this match yet, and would not ask for what came before.
+    if (is_new) std::this_thread::sleep_for(kSettle);
     Bytes bytes = Read(path);
     return matched && writer->write(&bytes);
   }

@@ -3,11 +3,12 @@
 // an independent decoder from ROS's own message definitions. Usage: node ros2_test.js BIN_FOLDER
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
-import { mkdtempSync, rmSync } from "node:fs";
+import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
-import { decode } from "./messages.js";
+import { points, triangles } from "./clouds.js";
+import { decode, service, writerOf } from "./messages.js";
 import { Peer } from "./peer.js";
 import { covariance, float, stampNs, trajectory } from "./trajectory.js";
 
@@ -23,12 +24,58 @@ const topics = {
   twist: [prefix + "twist", "geometry_msgs/TwistWithCovarianceStamped", "reliable"],
   status: [prefix + "status", "diagnostic_msgs/DiagnosticArray", "reliable"],
   path: [prefix + "path", "nav_msgs/Path", "latched"],
+  cloud: [prefix + "cloud", "sensor_msgs/PointCloud2", "best_effort"],
+  distance_flow: [prefix + "distance_flow", "sensor_msgs/PointCloud2", "best_effort"],
+  surface: [prefix + "surface", "visualization_msgs/Marker", "latched"],
   tf: ["rt/tf", "tf2_msgs/TFMessage", "reliable"],
 };
+const query = service(new URL("../../platform/linux/dds/ros2/disflow_msgs/srv/QueryDistanceField.srv", import.meta.url));
+const requestHeader = "uint64 client\nint64 seq\n";
+const reset = {
+  request: requestHeader + "uint8 structure_needs_at_least_one_member",
+  response: requestHeader + "bool success\nstring message",
+};
+const graphEntry = `rmw_dds_common/Gid gid
+rmw_dds_common/NodeEntitiesInfo[] node_entities_info_seq
+================
+MSG: rmw_dds_common/Gid
+uint8[16] data
+================
+MSG: rmw_dds_common/NodeEntitiesInfo
+string<=256 node_namespace
+string<=256 node_name
+rmw_dds_common/Gid[] reader_gid_seq
+rmw_dds_common/Gid[] writer_gid_seq`;
 const ddsType = (type) => type.replace("/", "::msg::dds_::") + "_";
 const received = (name) => decode(file(name), topics[name][1]);
 const nanoseconds = (stamp) => BigInt(stamp.sec) * 1000000000n + BigInt(stamp.nanosec ?? stamp.nsec);
 
+/** Calls a service of the first object; header and body of the reply. */
+async function call(peer, name, type, definition, body) {
+  const header = { client: 0x0123456789abcdefn, seq: BigInt(++call.count) };
+  writeFileSync(file("request"), writerOf(definition.request).writeMessage({ ...header, ...body }));
+  const answer = await peer.do(
+    "call", `rq/disflow/object/${name}Request`, `${type}_Request_`, `rr/disflow/object/${name}Reply`,
+    `${type}_Response_`, file("request"), file(`${name}.reply`),
+  );
+  assert.equal(answer, "answered");
+  const reply = decode(file(`${name}.reply`), definition.response).at(-1);
+  assert.deepEqual({ client: reply.client, seq: reply.seq }, header, "the header comes back");
+  return reply;
+}
+call.count = 0;
+const askDistance = (peer, points) =>
+  call(peer, "query_distance_field", "disflow_msgs::srv::dds_::QueryDistanceField", query, { points });
+/** Waits for so many samples, ten seconds at most. */
+async function samplesOf(peer, topic, count) {
+  for (let i = 0; i < 200 && Number(await peer.do("count", topic)) < count; ++i) await sleep(50);
+}
+const sleep = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
+
+let samplesAsked;
+let asked;
+let answered;
+let tooMuch;
 let rows;
 let good;
 let track;
@@ -47,15 +94,25 @@ before(async () => {
     assert.equal(await peer.do("subscribe", topic, ddsType(type), qos, file(name)), "subscribed");
   }
   const child = run(
-    "--sensor", "sim:bottle?motion=fast&noise=d415", "--rate", "realtime", "--frames", "90", "--headless",
+    "--sensor", "sim:bottle?motion=fast&noise=d415", "--rate", "realtime", "--frames", "900", "--headless",
     "--csv", file("pose.csv"), "--link", `dds:domain=${domain}&interface=lo&peer=127.0.0.1`,
   );
+  await samplesOf(peer, prefix + "cloud", 3);
+  // A little outside of where the model has samples.
+  samplesAsked = points(received("cloud").at(-1));
+  asked = samplesAsked.map((p) => ({
+    x: p.x + 0.004 * p.normal_x, y: p.y + 0.004 * p.normal_y, z: p.z + 0.004 * p.normal_z,
+  }));
+  answered = await askDistance(peer, [...asked, { x: NaN, y: 0, z: 0 }]);
+  tooMuch = await askDistance(peer, new Array(10001).fill({ x: 0, y: 0, z: 0 }));
+  await samplesOf(peer, prefix + "status", 120);
+  child.kill("SIGTERM");
   track = await child.ended;
   await peer.stop();
   assert.equal(track.status, 0, track.said);
   rows = trajectory(file("pose.csv"));
   good = rows.filter((row) => row.status === "ok");
-  assert.ok(good.length > 60, "a run that tracks");
+  assert.ok(good.length > 90, "a run that tracks");
 });
 after(() => rmSync(folder, { recursive: true }));
 
@@ -163,8 +220,123 @@ test("The status names state, verdict and numbers of its frame", () => {
   });
 });
 
+const normal = (p) => [p.normal_x, p.normal_y, p.normal_z];
+const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+
+test("The cloud holds the model's samples in the object's frame", () => {
+  const clouds = received("cloud");
+  assert.ok(clouds.length >= 3, `${clouds.length} clouds`);
+  assert.equal(clouds.at(-1).header.frame_id, "disflow/object");
+  const samples = points(clouds.at(-1));
+  assert.ok(samples.length > 500 && samples.length >= points(clouds[0]).length, "the model grows");
+  for (const sample of samples) {
+    assert.ok(Math.hypot(sample.x, sample.y, sample.z) < 0.3);
+    assert.ok(Math.abs(Math.hypot(...normal(sample)) - 1) < 1e-3);
+    assert.ok(sample.std > 0 && sample.std < 0.02);
+  }
+});
+
+test("The distance flow moves each point with the object, and knows the model near it", () => {
+  const flows = received("distance_flow");
+  assert.ok(flows.length >= 10, `${flows.length} clouds`);
+  const offset = nanoseconds(received("pose")[0].header.stamp) - stampNs(good[0]);
+  for (const flow of flows) {
+    assert.equal(flow.header.frame_id, "camera_optical_frame");
+    const row = rows.find((one) => stampNs(one) + offset === nanoseconds(flow.header.stamp));
+    const [v, w, p] = ["v", "w", ""].map((name) => ["x", "y", "z"].map((axis) => Number(row[name + axis])));
+    const samples = points(flow);
+    assert.equal(samples.length, Number(row.samples));
+    for (const sample of samples) {
+      const arm = [sample.x - p[0], sample.y - p[1], sample.z - p[2]];
+      assert.ok(Math.abs(sample.vx - (v[0] + w[1] * arm[2] - w[2] * arm[1])) < 1e-5);
+      assert.ok(Math.abs(sample.vz - (v[2] + w[0] * arm[1] - w[1] * arm[0])) < 1e-5);
+    }
+    const known = samples.filter((sample) => Math.abs(sample.d) < 0.01);
+    assert.ok(known.length > 0.5 * samples.length);
+  }
+});
+
+test("The surface's triangles lie where the samples are", () => {
+  const marker = received("surface").at(-1);
+  assert.equal(marker.header.frame_id, "disflow/object");
+  assert.equal(marker.type, 11, "TRIANGLE_LIST");
+  assert.equal(marker.colors.length, marker.points.length);
+  assert.ok(triangles(marker).length > 500);
+  const samples = points(received("cloud").at(-1));
+  for (const [corner] of triangles(marker).filter((_, i) => i % 50 === 0)) {
+    const gap = Math.min(...samples.map((s) => Math.hypot(s.x - corner.x, s.y - corner.y, s.z - corner.z)));
+    assert.ok(gap < 0.02, `${gap} m from the nearest sample`);
+  }
+});
+
+test("query_distance_field answers every point, and says which it cannot", () => {
+  assert.equal(answered.success, true, answered.message);
+  assert.equal(answered.model.frame_id, "disflow/object");
+  for (const name of ["distance", "gradient", "variance", "in_bounds"]) {
+    assert.equal(answered[name].length, asked.length + 1);
+  }
+  assert.ok(Number.isNaN(answered.distance.at(-1)) && !answered.in_bounds.at(-1));
+  const right = asked.filter((_, i) => Math.abs(answered.distance[i] - 0.004) < 0.002);
+  assert.ok(right.length > 0.9 * asked.length, `${right.length} of ${asked.length} distances`);
+  const along = asked.filter((_, i) => {
+    const { x, y, z } = answered.gradient[i];
+    return dot([x, y, z], normal(samplesAsked[i])) > 0.9;
+  });
+  assert.ok(along.length > 0.9 * asked.length, `${along.length} of ${asked.length} gradients`);
+  assert.ok(asked.every((_, i) => answered.variance[i] > 0));
+});
+
+test("query_distance_field refuses more than it can answer", () => {
+  assert.equal(tooMuch.success, false);
+  assert.match(tooMuch.message, /at most 10000/);
+});
+
 test("The run says what was sent", () => {
   assert.match(track.said, /dds:.*: \d+ messages sent, 0 failed, 0 results too late/);
+});
+
+test("Who comes late sees the node, the path and the surface, and can reset the object", async () => {
+  const late = domain + 100;
+  const child = run(
+    "--sensor", "sim:box?motion=moderate", "--rate", "realtime", "--frames", "900", "--headless", "--csv", file("late.csv"),
+    "--link", `dds:domain=${late}&interface=lo&peer=127.0.0.1&name=robot&camera=d415_optical`,
+  );
+  await sleep(1500);
+  const peer = await Peer.start(join(bin, "ros2_peer"), late);
+  const seen = async (topic, type, name) => {
+    await peer.do("subscribe", topic, type, "latched", file(name));
+    await samplesOf(peer, topic, 1);
+  };
+  await seen("ros_discovery_info", "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_", "graph");
+  await seen("rt/robot/object/path", ddsType("nav_msgs/Path"), "late_path");
+  await seen("rt/robot/object/surface", ddsType("visualization_msgs/Marker"), "late_surface");
+  const header = { client: 1n, seq: 2n };
+  writeFileSync(file("request"), writerOf(reset.request).writeMessage({ ...header, structure_needs_at_least_one_member: 0 }));
+  const answer = await peer.do(
+    "call", "rq/robot/object/resetRequest", "std_srvs::srv::dds_::Trigger_Request_",
+    "rr/robot/object/resetReply", "std_srvs::srv::dds_::Trigger_Response_", file("request"), file("reset"),
+  );
+  await sleep(300);
+  child.kill("SIGTERM");
+  const { status, said } = await child.ended;
+  await peer.stop();
+  assert.equal(status, 0, said);
+  assert.equal(answer, "answered");
+  const [reply] = decode(file("reset"), reset.response);
+  assert.deepEqual({ client: reply.client, seq: reply.seq, success: reply.success }, { ...header, success: true });
+  const run2 = trajectory(file("late.csv"));
+  assert.equal(run2[0].reset_counter, "0");
+  assert.equal(run2.at(-1).reset_counter, "1");
+
+  const [{ gid, node_entities_info_seq: nodes }] = decode(file("graph"), graphEntry);
+  assert.deepEqual(nodes.map((node) => node.node_namespace + node.node_name), ["/robot"]);
+  assert.equal(nodes[0].reader_gid_seq.length, 2, "two services");
+  assert.equal(nodes[0].writer_gid_seq.length, 11, "nine topics and two services");
+  for (const entity of [...nodes[0].reader_gid_seq, ...nodes[0].writer_gid_seq]) {
+    assert.deepEqual(entity.data.slice(0, 12), gid.data.slice(0, 12), "of this participant");
+  }
+  assert.equal(decode(file("late_path"), "nav_msgs/Path")[0].header.frame_id, "d415_optical");
+  assert.equal(decode(file("late_surface"), "visualization_msgs/Marker")[0].header.frame_id, "robot/object");
 });
 
 for (const [address, message] of [

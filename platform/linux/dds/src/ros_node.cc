@@ -17,6 +17,18 @@ hal::Fault EntityFault(const char* what, const std::string& topic, dds_entity_t 
 
 }  // namespace
 
+void AwaitReplyReaders(dds_entity_t requests, dds_entity_t replies) noexcept {
+  constexpr int kTurns = 20;
+  for (int i = 0; i < kTurns; ++i) {
+    dds_subscription_matched_status_t clients{};
+    dds_publication_matched_status_t readers{};
+    if (dds_get_subscription_matched_status(requests, &clients) < 0) return;
+    if (dds_get_publication_matched_status(replies, &readers) < 0) return;
+    if (readers.current_count >= std::max(clients.current_count, 1U)) return;
+    dds_sleepfor(DDS_MSECS(5));
+  }
+}
+
 hal::Fault RosNode::Open(const Options& options) {
   options_ = options;
   const hal::Fault fault = OpenDomain(options.network, domain_);

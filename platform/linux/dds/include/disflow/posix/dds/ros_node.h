@@ -69,12 +69,30 @@ class RosSubscription {
   dds_entity_t reader_ = 0;
 };
 
+/// Waits a moment until as many read the replies as write the requests: DDS finds a client's two
+/// ends one after the other, and a reply to the first request would be lost.
+void AwaitReplyReaders(dds_entity_t requests, dds_entity_t replies) noexcept;
+
 /// The two topics of a service, as rmw_cyclonedds has them: the client's header comes with the
 /// request and goes back with the reply.
 template <class Request, class Response>
-struct RosService {
+class RosService {
+ public:
+  RosService() = default;
+  RosService(dds_entity_t reader, dds_entity_t writer) noexcept
+      : requests(reader), reader_(reader), writer_(writer) {}
+
+  /// @param response With the request's header. What cannot be sent is missed by the client alone.
+  void Reply(const Response& response) noexcept {
+    AwaitReplyReaders(reader_, writer_);
+    (void)dds_write(writer_, &response);
+  }
+
   RosSubscription<Request> requests;
-  RosPublisher<Response> replies;
+
+ private:
+  dds_entity_t reader_ = 0;
+  dds_entity_t writer_ = 0;
 };
 
 /// One node in one participant.
@@ -119,8 +137,7 @@ class RosNode {
     if (!fault.ok()) return fault;
     fault =
         AddWriter({DescriptorOf<Response>(), ReplyTopicName(name), RosQos::kReliable, id}, writer);
-    service.requests = RosSubscription<Request>(reader);
-    service.replies = RosPublisher<Response>(writer);
+    service = RosService<Request, Response>(reader, writer);
     return fault;
   }
 
