@@ -23,7 +23,7 @@ Report Evaluate(const EvaluationInput& input) {
   Report report;
   report.sequence = input.sequence;
   report.csv = input.csv.string();
-  const Sequence sequence = OpenSequence(input.sequence, input.model);
+  const Sequence sequence = OpenSequence(input.sequence, input.model, input.object);
   const GroundTruth& truth = sequence.truth;
   report.estimates = LoadEstimates(input.csv, static_cast<int>(truth.T_ct.size()));
   report.model = sequence.model_name;

@@ -14,6 +14,7 @@ struct EvaluationInput {
   std::filesystem::path csv;
   std::filesystem::path model;  ///< Empty = the sequence's own.
   std::filesystem::path mesh;   ///< Reconstructed surface, tracker's object frame; empty = none.
+  std::string object = "";      ///< Which of several; empty: the only one.
 };
 
 /// Reads everything and computes all metrics.

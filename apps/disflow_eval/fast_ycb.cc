@@ -71,7 +71,8 @@ FastYcbResult Run(const FastYcbOptions& options, const std::string& object, cons
   const int status = RunProgram(std::move(words), options.out);
   if (status == kProgramNotFound) throw InputError(options.track, "cannot be run");
   if (status != 0) throw InputError(sequence, Format("disflow_track ended with %d", status));
-  const Report report = Evaluate({sequence.string(), csv, model, mesh});
+  const Report report =
+      Evaluate({.sequence = sequence.string(), .csv = csv, .model = model, .mesh = mesh});
   WriteFile(stem.string() + ".json", FormatJson(report));
   return Summarise(report, object, mask);
 }

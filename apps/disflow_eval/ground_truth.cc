@@ -2,6 +2,7 @@
 #include "ground_truth.h"
 
 #include <cmath>
+#include <set>
 #include <string>
 
 #include "errors.h"
@@ -65,15 +66,34 @@ void LoadStamps(const fs::path& file, GroundTruth& truth) {
   RequireCount(file, truth.stamps_s.size(), truth.T_ct.size());
 }
 
+/// Says which objects there are, if the one asked for is not.
+void RequireObject(const fs::path& gt, const fs::path& folder) {
+  if (fs::exists(folder / "poses.txt") || !fs::is_directory(gt)) return;
+  std::set<std::string> names;
+  for (const fs::directory_entry& entry : fs::directory_iterator(gt)) {
+    if (fs::exists(entry.path() / "poses.txt")) names.insert(entry.path().filename().string());
+  }
+  if (names.empty()) return;
+  std::string list;
+  for (const std::string& name : names) list += " " + name;
+  throw InputError(gt, "choose with --object one of:" + list);
+}
+
 }  // namespace
 
-GroundTruth LoadGroundTruth(const fs::path& sequence_dir) {
+fs::path TruthFolder(const fs::path& sequence_dir, const std::string& object) {
+  return object.empty() ? sequence_dir / "gt" : sequence_dir / "gt" / object;
+}
+
+GroundTruth LoadGroundTruth(const fs::path& sequence_dir, const std::string& object) {
   if (!fs::is_directory(sequence_dir)) {
     throw InputError(sequence_dir, "is no folder; a sequence in the Fast-YCB layout is needed");
   }
+  const fs::path folder = TruthFolder(sequence_dir, object);
+  RequireObject(sequence_dir / "gt", folder);
   GroundTruth truth;
-  truth.T_ct = LoadPoses(sequence_dir / "gt" / "poses.txt");
-  if (const fs::path file = sequence_dir / "gt" / "velocities.txt"; fs::exists(file)) {
+  truth.T_ct = LoadPoses(folder / "poses.txt");
+  if (const fs::path file = folder / "velocities.txt"; fs::exists(file)) {
     truth.twists = LoadTwists(file);
     RequireCount(file, truth.twists.size(), truth.T_ct.size());
   }

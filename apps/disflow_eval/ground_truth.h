@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "frames.h"
@@ -17,7 +18,13 @@ struct GroundTruth {
 };
 
 /// Reads gt/poses.txt, gt/velocities.txt and data.txt of a sequence in the Fast-YCB layout.
+/// @param object Of a sequence with several objects: they have a folder of their name in gt/.
 /// @throws InputError naming file, line and reason.
-[[nodiscard]] GroundTruth LoadGroundTruth(const std::filesystem::path& sequence_dir);
+[[nodiscard]] GroundTruth LoadGroundTruth(const std::filesystem::path& sequence_dir,
+                                          const std::string& object = {});
+
+/// The folder that holds the truth and the model of an object.
+[[nodiscard]] std::filesystem::path TruthFolder(const std::filesystem::path& sequence_dir,
+                                                const std::string& object);
 
 }  // namespace disflow::apps

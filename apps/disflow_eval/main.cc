@@ -103,6 +103,8 @@ void AddSequence(CLI::App& app, Options& options) {
   app.add_option("--csv", options.input.csv,
                  "Trajectory to judge, as disflow_track --csv writes it")
       ->type_name("FILE");
+  app.add_option("--object", options.input.object, "Which object, if the sequence has several")
+      ->type_name("NAME");
   app.add_option("--model", options.input.model,
                  "Model of the object, .obj or .xyz, metres [the sequence's own]")
       ->type_name("FILE");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sequence.h"
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -21,10 +22,10 @@ void RequireOk(const hal::Fault& fault) {
   if (!fault.ok()) throw InputError(fault.message);
 }
 
-Sequence OpenFolder(const fs::path& dir) {
+Sequence OpenFolder(const fs::path& dir, const std::string& object) {
   Sequence sequence;
-  sequence.truth = LoadGroundTruth(dir);
-  if (const fs::path file = dir / "gt" / "model.obj"; fs::exists(file)) {
+  sequence.truth = LoadGroundTruth(dir, object);
+  if (const fs::path file = TruthFolder(dir, object) / "model.obj"; fs::exists(file)) {
     sequence.model_name = file.string();
     sequence.model = LoadModel(file);
   }
@@ -41,23 +42,35 @@ Sequence OpenFolder(const fs::path& dir) {
   return sequence;
 }
 
-Sequence OpenSimulation(const std::string& address) {
+/// @return Its number, from 0.
+std::size_t FindObject(const host::SimulationOptions& options, const std::string& object) {
+  const std::vector<std::string> names = ObjectNames(options);
+  if (object.empty() && names.size() == 1) return 0;
+  const auto found = std::find(names.begin(), names.end(), object);
+  if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+  std::string list;
+  for (const std::string& name : names) list += " " + name;
+  throw InputError("choose with --object one of:" + list);
+}
+
+Sequence OpenSimulation(const std::string& address, const std::string& object) {
   host::Uri uri;
   RequireOk(host::ParseUri(address, uri));
   host::SimulationOptions options;
   RequireOk(ParseSimulationUri(uri, options));
-  host::TriangleMesh mesh;
-  RequireOk(LoadSimulatedObject(options, mesh));
+  const std::size_t number = FindObject(options, object);
+  std::vector<host::TriangleMesh> meshes;
+  RequireOk(LoadSimulatedObjects(options, meshes));
 
   Sequence sequence;
-  sequence.model_name = ObjectName(options);
+  sequence.model_name = ObjectNames(options)[number];
   sequence.model.emplace();
-  sequence.model->vertices = mesh.vertices;
-  sequence.model->triangles = mesh.triangles;
-  const auto simulation = std::make_shared<host::Simulation>(options, std::move(mesh));
+  sequence.model->vertices = meshes[number].vertices;
+  sequence.model->triangles = meshes[number].triangles;
+  const auto simulation = std::make_shared<host::Simulation>(options, std::move(meshes));
   for (int index = 0; index < options.frames; ++index) {
     if (simulation->IsDropped(index)) continue;
-    const host::FrameTruth truth = simulation->TruthAt(index);
+    const host::FrameTruth truth = simulation->TruthAt(index, number);
     sequence.truth.T_ct.emplace_back(truth.object.pose.rotation(), truth.object.pose.translation());
     sequence.truth.twists.push_back({truth.object.linear_mps, truth.object.angular_rps});
     sequence.truth.file_indices.push_back(index);
@@ -74,15 +87,16 @@ Sequence OpenSimulation(const std::string& address) {
 
 }  // namespace
 
-Sequence OpenSequence(const std::string& address, const fs::path& model_file) {
-  Sequence sequence =
-      address.starts_with("sim:") ? OpenSimulation(address) : OpenFolder(fs::path(address));
+Sequence OpenSequence(const std::string& address, const fs::path& model_file,
+                      const std::string& object) {
+  Sequence sequence = address.starts_with("sim:") ? OpenSimulation(address, object)
+                                                  : OpenFolder(fs::path(address), object);
   if (!model_file.empty()) {
     sequence.model_name = model_file.string();
     sequence.model = LoadModel(model_file);
   }
   if (!sequence.model) {
-    throw InputError(fs::path(address) / "gt" / "model.obj",
+    throw InputError(TruthFolder(address, object) / "model.obj",
                      "does not exist; name the object's model with --model");
   }
   return sequence;

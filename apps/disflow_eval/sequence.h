@@ -25,8 +25,10 @@ struct Sequence {
 /// Opens a folder in the Fast-YCB layout, or a simulation by the address that disflow_track takes
 /// ("sim:box?motion=fast"): the same images, rendered anew where they are asked for.
 /// @param model_file Used in place of the sequence's own model unless empty.
+/// @param object Which of several objects is to be judged; empty: the only one.
 /// @throws InputError naming file or address and reason.
 [[nodiscard]] Sequence OpenSequence(const std::string& address,
-                                    const std::filesystem::path& model_file = {});
+                                    const std::filesystem::path& model_file = {},
+                                    const std::string& object = {});
 
 }  // namespace disflow::apps

@@ -27,6 +27,7 @@ constexpr const char* kDescription =
 constexpr const char* kFooter =
     "OUT_DIR receives cam_K.json, depth/, masks/SET/, data.txt, gt/poses.txt, gt/velocities.txt,\n"
     "gt/model.obj and, with a moving camera, T_wc.txt. The same arguments give the same bytes.\n"
+    "Of several objects each has a folder of its name in gt/ and masks of its name.\n"
     "\n"
     "Exit status: 0 done, 2 wrong usage, 3 an input failed, 4 an output failed.";
 
@@ -46,6 +47,7 @@ constexpr std::array kFlags{
     Flag{"--height", "height", "Image height in pixels [360]"},
     Flag{"--focal", "focal", "Focal length in pixels [as Fast-YCB's camera at this width]"},
     Flag{"--occluder", "occluder", "none or arm [none]"},
+    Flag{"--hide", "hide", "Object that is not there from 1 to 2 s, from 1 on [0: none]"},
     Flag{"--drop", "drop", "Share of images that are lost, 0 to 0.9 [0]"},
     Flag{"--camera", "camera", "static or moving [static]"},
     Flag{"--format", "format", "float, or z16 for depth rounded to millimetres [float]"}};
@@ -76,14 +78,38 @@ Fault MakeOptions(const Arguments& arguments, SimulationOptions& options) {
   return fault;
 }
 
+disflow::MaskView MaskOf(const disflow::host::Simulation& simulation, const std::string& set) {
+  return set == "gt" ? simulation.gt_mask() : simulation.sloppy_mask();
+}
+
+/// Masks and truth of one of several objects.
+Fault WriteObject(const disflow::host::Simulation& simulation, int index, std::size_t object,
+                  const std::vector<std::string>& mask_sets,
+                  disflow::host::SequenceWriter& writer) {
+  const std::string name = ObjectNames(simulation.options())[object];
+  Fault fault = writer.AddTruthOf(name, simulation.TruthAt(index, object).object);
+  for (const std::string& set : mask_sets) {
+    if (!fault.ok() || set == "none") continue;
+    disflow::MaskView mask = MaskOf(simulation, set);
+    mask.label = static_cast<std::uint8_t>(object + 1);
+    fault = writer.AddMaskOf(name, set, mask);
+  }
+  return fault;
+}
+
 Fault WriteFrame(disflow::host::Simulation& simulation, int index,
                  const std::vector<std::string>& mask_sets, disflow::host::SequenceWriter& writer) {
   DepthFrame frame;
   simulation.Render(index, frame);
   Fault fault = writer.AddFrame(frame);
+  if (simulation.objects() > 1) {
+    for (std::size_t i = 0; i < simulation.objects() && fault.ok(); ++i)
+      fault = WriteObject(simulation, index, i, mask_sets, writer);
+    return fault;
+  }
   for (const std::string& set : mask_sets) {
     if (!fault.ok() || set == "none") continue;
-    fault = writer.AddMask(set, set == "gt" ? simulation.gt_mask() : simulation.sloppy_mask());
+    fault = writer.AddMask(set, MaskOf(simulation, set));
   }
   if (fault.ok()) fault = writer.AddTruth(simulation.TruthAt(index).object);
   return fault;
@@ -98,9 +124,15 @@ Fault WriteSequence(disflow::host::Simulation& simulation, const Arguments& argu
     fault = WriteFrame(simulation, index, arguments.mask_sets, writer);
   }
   if (fault.ok()) fault = writer.Finish();
-  if (fault.ok()) fault = WriteObj(arguments.out_dir / "gt" / "model.obj", simulation.mesh());
+  const std::vector<std::string> names = ObjectNames(options);
+  std::string all;
+  for (std::size_t i = 0; i < names.size() && fault.ok(); ++i) {
+    const fs::path folder = arguments.out_dir / "gt" / (names.size() > 1 ? names[i] : "");
+    fault = WriteObj(folder / "model.obj", simulation.mesh(i));
+    all += (i > 0 ? ", " : "") + names[i];
+  }
   if (fault.ok()) {
-    std::printf("%d frames of %s in %s\n", writer.frame_count(), ObjectName(options).c_str(),
+    std::printf("%d frames of %s in %s\n", writer.frame_count(), all.c_str(),
                 arguments.out_dir.c_str());
   }
   return fault;
@@ -110,10 +142,10 @@ int Run(const Arguments& arguments) {
   SimulationOptions options;
   Fault fault = MakeOptions(arguments, options);
   if (!fault.ok()) return Complain(fault, kWrongUsage);
-  disflow::host::TriangleMesh mesh;
-  fault = LoadSimulatedObject(options, mesh);
+  std::vector<disflow::host::TriangleMesh> meshes;
+  fault = LoadSimulatedObjects(options, meshes);
   if (!fault.ok()) return Complain(fault, kInputFailed);
-  disflow::host::Simulation simulation(options, std::move(mesh));
+  disflow::host::Simulation simulation(options, std::move(meshes));
   fault = WriteSequence(simulation, arguments);
   return fault.ok() ? kDone : Complain(fault, kOutputFailed);
 }
@@ -127,7 +159,9 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", "disflow_sim " DISFLOW_VERSION " (" DISFLOW_BUILD ")");
   app.add_option("OUT_DIR", arguments.out_dir, "Folder to write; created if it does not exist")
       ->required();
-  app.add_option("--object", arguments.object, "box, bottle, can, doughnut or FILE.obj [box]");
+  app.add_option("--object", arguments.object,
+                 "box, bottle, can, doughnut or FILE.obj, or several joined by +, the nearest "
+                 "first [box]");
   for (std::size_t i = 0; i < kFlags.size(); ++i) {
     app.add_option(kFlags[i].name, arguments.flags[i], kFlags[i].help);
   }

@@ -124,7 +124,7 @@ void AssignSection(const std::string& file, std::string_view section, const toml
 std::vector<ObjectTable> ReadObjects(const std::string& file, const toml::node& node,
                                      const Config& config) {
   const toml::array* const array = node.as_array();
-  if (array == nullptr || !array->is_homogeneous<toml::table>())
+  if (array == nullptr || !(array->empty() || array->is_homogeneous<toml::table>()))
     Refuse(Where(file, node), "objects are tables, each headed [[object]]");
   std::vector<ObjectTable> objects;
   for (const toml::node& element : *array) {

@@ -6,7 +6,10 @@
 namespace disflow::host {
 
 SimulatedSensor::SimulatedSensor(const SimulationOptions& options, TriangleMesh mesh)
-    : simulation_(options, std::move(mesh)),
+    : SimulatedSensor(options, std::vector<TriangleMesh>{std::move(mesh)}) {}
+
+SimulatedSensor::SimulatedSensor(const SimulationOptions& options, std::vector<TriangleMesh> meshes)
+    : simulation_(options, std::move(meshes)),
       name_("simulated " + ObjectName(options) + ", " + std::to_string(options.frames) +
             " frames") {}
 

@@ -14,17 +14,18 @@
 namespace disflow::host {
 namespace {
 
-enum Label : std::uint32_t { kBackground = 0, kObject = 1, kOccluder = 2 };
+/// Objects are 1, 2, ...
+enum Label : std::uint32_t { kBackground = 0, kFirstObject = 1, kOccluder = 1000 };
 
 constexpr double kGapBehindObject_m = 0.35;
 
 /// Turns the mesh's longest side upright; then the front towards the camera and the top into view.
-Mat3d StartRotation(const SimulationOptions& options, const TriangleMesh& mesh) {
+Mat3d StartRotation(ObjectKind object, const TriangleMesh& mesh, std::uint64_t seed) {
   Mat3d rotation;
   rotation << 1, 0, 0, 0, 0, -1, 0, 1, 0;  // +z up: the camera's y axis points down
   double tilt_rad = 25.0 * kRadPerDeg;
-  if (options.object == ObjectKind::kDoughnut) tilt_rad = 50.0 * kRadPerDeg;
-  if (options.object == ObjectKind::kObjFile) {
+  if (object == ObjectKind::kDoughnut) tilt_rad = 50.0 * kRadPerDeg;
+  if (object == ObjectKind::kObjFile) {
     Vec3d extent = Vec3d::Zero();
     for (const Vec3d& vertex : mesh.vertices) extent = extent.cwiseMax(vertex.cwiseAbs());
     int longest = 0;
@@ -33,7 +34,7 @@ Mat3d StartRotation(const SimulationOptions& options, const TriangleMesh& mesh) 
     // Tall meshes with a y axis along their height have it point down, as Fast-YCB's do.
     if (longest == 1) rotation *= ExpSo3(Vec3d(-0.5 * std::numbers::pi, 0.0, 0.0));
   }
-  RandomNumbers random(options.seed, 5);
+  RandomNumbers random(seed, 5);
   const double yaw_rad = random.Uniform(25.0, 65.0) * kRadPerDeg;
   return ExpSo3(Vec3d(tilt_rad, 0.0, 0.0)) * ExpSo3(Vec3d(0.0, yaw_rad, 0.0)) * rotation;
 }
@@ -52,55 +53,126 @@ std::optional<SensorNoise> MakeNoise(const SimulationOptions& options) {
                      options.width_px, options.height_px, options.seed);
 }
 
+/// Where an object is in the image at the start, about.
+struct Disc {
+  Vec3d centre = Vec3d::Zero();  ///< On the plane z = 1.
+  double radius = 0.0;
+};
+
+/// A seed whose motion starts where the objects before it do not hide much of this one.
+std::uint64_t SeedOfFreeStart(MotionSettings settings, std::size_t object, double radius_m,
+                              std::vector<Disc>& taken) {
+  constexpr std::uint64_t kSeedsPerObject = 1000;
+  constexpr double kApart = 0.75;       // of the spheres, which the objects do not fill
+  settings.kind = MotionKind::kStatic;  // starts at the same place and is made at once
+  const std::uint64_t first = settings.seed + object * kSeedsPerObject;
+  Disc best;
+  double best_gap = -std::numeric_limits<double>::max();
+  std::uint64_t best_seed = first;
+  for (std::uint64_t k = 0; k < kSeedsPerObject && best_gap < 0.0; ++k) {
+    settings.seed = first + k;
+    const Vec3d start_m = MakeObjectMotion(settings)->At(0.0).pose.translation();
+    const Disc disc{start_m / start_m.z(), radius_m / start_m.z()};
+    double gap = std::numeric_limits<double>::max();
+    for (const Disc& other : taken) {
+      gap = std::min(gap,
+                     (disc.centre - other.centre).norm() - kApart * (disc.radius + other.radius));
+    }
+    if (gap <= best_gap) continue;
+    best_gap = gap;
+    best_seed = settings.seed;
+    best = disc;
+  }
+  taken.push_back(best);
+  return best_seed;
+}
+
 }  // namespace
 
 Simulation::Simulation(const SimulationOptions& options, TriangleMesh mesh)
+    : Simulation(options, std::vector<TriangleMesh>{std::move(mesh)}) {}
+
+Simulation::Simulation(const SimulationOptions& options, std::vector<TriangleMesh> meshes)
     : options_(options),
-      mesh_(std::move(mesh)),
       camera_(SimulatedCamera(options)),
-      radius_m_(BoundingRadius(mesh_)),
-      workspace_(FitWorkspace(
-          camera_, options.width_px, options.height_px,
-          radius_m_ + (options.camera == CameraKind::kMoving ? CameraMotion::kViewMargin_m : 0.0))),
-      object_motion_(MakeObjectMotion({.kind = options.motion,
-                                       .workspace = workspace_,
-                                       .start_rotation = StartRotation(options, mesh_),
-                                       .duration_s = options.frames / options.fps,
-                                       .frame_period_s = 1.0 / options.fps,
-                                       .seed = options.seed})),
+      bodies_(MakeBodies(options, std::move(meshes))),
       renderer_(camera_, options.width_px, options.height_px),
       noise_(MakeNoise(options)),
-      sloppy_(options.width_px, options.height_px),
       dropped_(ChooseDropped(options)),
       depth_m_(renderer_.labels().size()),
       depth_mm_(options.format == DepthFormat::kUint16 ? depth_m_.size() : 0),
-      gt_mask_(depth_m_.size()) {
+      gt_mask_(depth_m_.size()),
+      sloppy_mask_(depth_m_.size()),
+      exact_(depth_m_.size()) {
+  const Body& first = bodies_.front();
   if (options.camera == CameraKind::kMoving) {
-    camera_motion_.emplace(workspace_.centre_m.z(), options.seed);
+    camera_motion_.emplace(first.workspace.centre_m.z(), options.seed);
   }
-  if (options.occluder == OccluderKind::kArm) arm_.emplace(radius_m_, options.seed);
+  if (options.occluder == OccluderKind::kArm) arm_.emplace(first.radius_m, options.seed);
   if (options.occluder == OccluderKind::kHand)
-    hand_.emplace(mesh_, TruthAt(0).object.pose.rotation());
+    hand_.emplace(first.mesh, TruthAt(0).object.pose.rotation());
 }
 
-FrameTruth Simulation::TruthAt(int index) const {
+std::vector<Simulation::Body> Simulation::MakeBodies(const SimulationOptions& options,
+                                                     std::vector<TriangleMesh> meshes) {
+  const PinholeCamera camera = SimulatedCamera(options);
+  const double margin_m = options.camera == CameraKind::kMoving ? CameraMotion::kViewMargin_m : 0.0;
+  std::vector<Body> bodies;
+  std::vector<double> radii_m;
+  for (TriangleMesh& mesh : meshes) {
+    const double radius_m = BoundingRadius(mesh);
+    radii_m.push_back(radius_m + margin_m);
+    bodies.push_back({.mesh = std::move(mesh),
+                      .radius_m = radius_m,
+                      .workspace = {},
+                      .motion = nullptr,
+                      .sloppy = SloppyMask(options.width_px, options.height_px)});
+  }
+  std::vector<Workspace> workspaces = {
+      FitWorkspace(camera, options.width_px, options.height_px, radii_m.front())};
+  if (bodies.size() > 1)
+    workspaces = StackWorkspaces(camera, options.width_px, options.height_px, radii_m);
+  const std::vector<SimulatedShape> shapes = ObjectShapes(options);
+  std::vector<Disc> taken;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    Body& body = bodies[i];
+    body.workspace = workspaces[i];
+    MotionSettings settings{
+        .kind = options.motion,
+        .workspace = body.workspace,
+        .start_rotation = StartRotation(shapes[i].object, body.mesh, options.seed + i),
+        .duration_s = options.frames / options.fps,
+        .frame_period_s = 1.0 / options.fps,
+        .seed = options.seed};
+    if (bodies.size() > 1) settings.seed = SeedOfFreeStart(settings, i, body.radius_m, taken);
+    body.motion = MakeObjectMotion(settings);
+  }
+  return bodies;
+}
+
+FrameTruth Simulation::TruthAt(int index, std::size_t object) const {
   const double time_s = index / options_.fps;
   FrameTruth truth;
   // Not zero: a stamp of zero means "not set" to some programs.
   truth.stamp_ns = kFirstStamp_ns + std::llround(time_s * 1e9);
   if (camera_motion_) truth.camera = camera_motion_->At(time_s);
-  truth.object = SeenFrom(truth.camera, object_motion_->At(time_s));
+  truth.object = SeenFrom(truth.camera, bodies_[object].motion->At(time_s));
   return truth;
 }
 
 void Simulation::DrawScene(int index, const FrameTruth& truth) {
-  const double wall_m = std::max(
-      1.5, workspace_.centre_m.z() + workspace_.half_extent_m.z() + radius_m_ + kGapBehindObject_m);
+  double wall_m = 1.5;
+  double table_m = 0.33;
+  for (const Body& body : bodies_) {
+    const Workspace& space = body.workspace;
+    wall_m = std::max(
+        wall_m, space.centre_m.z() + space.half_extent_m.z() + body.radius_m + kGapBehindObject_m);
+    table_m = std::max(table_m, space.half_extent_m.y() + body.radius_m + 0.1);
+  }
   // A slanted wall and a table top, fixed in the world.
   const std::array<Plane, 2> planes{
       Plane{Vec3d(0.25, 0.0, 1.0).normalized(), wall_m * Vec3d(0.25, 0.0, 1.0).normalized().z()},
-      Plane{Vec3d(0.0, 1.0, -0.02).normalized(),
-            std::max(0.33, workspace_.half_extent_m.y() + radius_m_ + 0.1)}};
+      Plane{Vec3d(0.0, 1.0, -0.02).normalized(), table_m}};
   const Mat3d& R_wc = truth.camera.pose.rotation();
   renderer_.Clear();
   for (const Plane& plane : planes) {
@@ -109,8 +181,21 @@ void Simulation::DrawScene(int index, const FrameTruth& truth) {
   }
   const double time_s = index / options_.fps;
   if (options_.support == SupportKind::kTable) renderer_.DrawPlane(TableAt(time_s, truth));
-  renderer_.DrawMesh(mesh_, truth.object.pose, kObject);
+  DrawBodies(index);
   DrawOccluder(time_s, truth);
+}
+
+void Simulation::DrawBodies(int index) {
+  constexpr double kGone_s = 1.0;
+  constexpr double kBack_s = 2.0;
+  const double time_s = index / options_.fps;
+  const bool hides = time_s >= kGone_s && time_s < kBack_s;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const std::size_t number = i + 1;
+    if (hides && static_cast<std::size_t>(options_.hide) == number) continue;
+    renderer_.DrawMesh(bodies_[i].mesh, TruthAt(index, i).object.pose,
+                       kFirstObject + static_cast<std::uint32_t>(i));
+  }
 }
 
 void Simulation::DrawOccluder(double time_s, const FrameTruth& truth) {
@@ -131,9 +216,9 @@ Plane Simulation::TableAt(double time_s, const FrameTruth& truth) const {
   constexpr double kLift_mps = 0.3;
   // Level with the object's start in the world.
   const Vec3d up = truth.camera.pose.rotation().transpose() *
-                   object_motion_->At(0.0).pose.rotation() * Vec3d::UnitZ();
+                   bodies_.front().motion->At(0.0).pose.rotation() * Vec3d::UnitZ();
   double lowest_m = std::numeric_limits<double>::max();
-  for (const Vec3d& vertex : mesh_.vertices)
+  for (const Vec3d& vertex : bodies_.front().mesh.vertices)
     lowest_m = std::min(lowest_m, up.dot(truth.object.pose * vertex));
   return {up, lowest_m - kLift_mps * std::max(0.0, time_s - kLiftOff_s)};
 }
@@ -148,10 +233,7 @@ void Simulation::Render(int index, DepthFrame& frame) {
     std::transform(inverse_depth.begin(), inverse_depth.end(), depth_m_.begin(),
                    [](float w) { return w > 0.0F ? 1.0F / w : 0.0F; });
   }
-  std::transform(
-      renderer_.labels().begin(), renderer_.labels().end(), gt_mask_.begin(),
-      [](std::uint32_t label) { return static_cast<std::uint8_t>(label == kObject ? 255 : 0); });
-  sloppy_.Update(index, gt_mask_);
+  DrawMasks(index);
 
   frame = DepthFrame{};
   frame.depth = DepthToDeliver();
@@ -161,6 +243,27 @@ void Simulation::Render(int index, DepthFrame& frame) {
   if (options_.mask == MaskKind::kSloppy) frame.mask = sloppy_mask();
   frame.has_T_wc = camera_motion_.has_value();
   if (frame.has_T_wc) frame.T_wc = truth.camera.pose.Cast<float>();
+}
+
+void Simulation::DrawMasks(int index) {
+  const std::span<const std::uint32_t> labels = renderer_.labels();
+  std::fill(gt_mask_.begin(), gt_mask_.end(), std::uint8_t{0});
+  std::fill(sloppy_mask_.begin(), sloppy_mask_.end(), std::uint8_t{0});
+  // The nearest last, so that it wins where inexact masks overlap.
+  for (std::size_t i = bodies_.size(); i-- > 0;) {
+    const auto label = kFirstObject + static_cast<std::uint32_t>(i);
+    const auto value = static_cast<std::uint8_t>(bodies_.size() == 1 ? 255U : label);
+    std::transform(labels.begin(), labels.end(), exact_.begin(), [label](std::uint32_t seen) {
+      return static_cast<std::uint8_t>(seen == label ? 255 : 0);
+    });
+    bodies_[i].sloppy.Update(index, exact_);
+    const auto mark = [value](std::span<const std::uint8_t> mask, std::vector<std::uint8_t>& all) {
+      for (std::size_t pixel = 0; pixel < all.size(); ++pixel)
+        if (mask[pixel] != 0) all[pixel] = value;
+    };
+    mark(exact_, gt_mask_);
+    mark(bodies_[i].sloppy.mask(), sloppy_mask_);
+  }
 }
 
 DepthView Simulation::DepthToDeliver() {

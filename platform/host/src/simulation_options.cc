@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "disflow/host/simulation_options.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <limits>
@@ -48,6 +49,7 @@ constexpr Range<double> kFps{1.0, 1000.0};
 constexpr Range<int> kSide{32, 4096};
 constexpr Range<double> kFocal{16.0, 16384.0};
 constexpr Range<double> kDrop{0.0, 0.9};
+constexpr Range<int> kHide{0, static_cast<int>(kMaxSimulatedObjects)};
 
 constexpr std::string_view kObjPrefix = "obj:";
 
@@ -97,6 +99,7 @@ constexpr std::array kOptions{ChoiceOption<&Options::motion, kMotions>("motion")
                               NumberOption<&Options::focal_px, kFocal>("focal"),
                               ChoiceOption<&Options::occluder, kOccluders>("occluder"),
                               ChoiceOption<&Options::support, kSupports>("support"),
+                              NumberOption<&Options::hide, kHide>("hide"),
                               NumberOption<&Options::drop, kDrop>("drop"),
                               ChoiceOption<&Options::camera, kCameras>("camera"),
                               ChoiceOption<&Options::mask, kMasks>("mask"),
@@ -109,6 +112,43 @@ std::string ListKeys() {
     list += option.key;
   }
   return list;
+}
+
+hal::Fault ParseShape(std::string_view name, SimulatedShape& shape) {
+  if (name.starts_with(kObjPrefix) && name.size() > kObjPrefix.size()) {
+    shape = {ObjectKind::kObjFile, std::string(name.substr(kObjPrefix.size()))};
+    return {};
+  }
+  for (const auto& [word, kind] : kObjects) {
+    if (word != name) continue;
+    shape = {kind, {}};
+    return {};
+  }
+  return hal::MakeFault(
+      Status::kInvalidUri, "'%.*s' is no simulated object; known: %s, obj:FILE.obj",
+      static_cast<int>(name.size()), name.data(), ListChoices(All(kObjects)).c_str());
+}
+
+/// Where the first of several names ends. A + that no name follows belongs to a file's name.
+std::size_t EndOfName(std::string_view names) {
+  for (std::size_t plus = names.find('+'); plus < names.size(); plus = names.find('+', plus + 1)) {
+    const std::string_view rest = names.substr(plus + 1);
+    const bool is_word = std::any_of(kObjects.begin(), kObjects.end(), [rest](const auto& choice) {
+      return rest.substr(0, rest.find('+')) == choice.word;
+    });
+    if (is_word || rest.starts_with(kObjPrefix) || !names.starts_with(kObjPrefix)) return plus;
+  }
+  return names.size();
+}
+
+std::string NameOf(const SimulatedShape& shape) {
+  for (const auto& [word, kind] : kObjects) {
+    if (kind == shape.object) return std::string(word);
+  }
+  const std::string& file = shape.obj_file;
+  const std::size_t slash = file.rfind('/');
+  const std::string name = slash == std::string::npos ? file : file.substr(slash + 1);
+  return name.substr(0, name.rfind('.'));
 }
 
 }  // namespace
@@ -133,19 +173,28 @@ hal::Fault SetSimulationOption(std::string_view key, std::string_view value,
 }
 
 hal::Fault SetSimulationObject(std::string_view name, SimulationOptions& options) {
-  if (name.starts_with(kObjPrefix) && name.size() > kObjPrefix.size()) {
-    options.object = ObjectKind::kObjFile;
-    options.obj_file = name.substr(kObjPrefix.size());
-    return {};
+  std::vector<SimulatedShape> shapes;
+  for (;;) {
+    const std::size_t end = EndOfName(name);
+    const hal::Fault fault = ParseShape(name.substr(0, end), shapes.emplace_back());
+    if (!fault.ok()) return fault;
+    if (end == name.size()) break;
+    name.remove_prefix(end + 1);
   }
-  for (const auto& [word, kind] : kObjects) {
-    if (word != name) continue;
-    options.object = kind;
-    return {};
+  if (shapes.size() > kMaxSimulatedObjects) {
+    return hal::MakeFault(Status::kInvalidUri, "%zu simulated objects are too many; %zu have room",
+                          shapes.size(), kMaxSimulatedObjects);
   }
-  return hal::MakeFault(
-      Status::kInvalidUri, "'%.*s' is no simulated object; known: %s, obj:FILE.obj",
-      static_cast<int>(name.size()), name.data(), ListChoices(All(kObjects)).c_str());
+  options.object = shapes.front().object;
+  options.obj_file = shapes.front().obj_file;
+  options.further.assign(shapes.begin() + 1, shapes.end());
+  return {};
+}
+
+std::vector<SimulatedShape> ObjectShapes(const SimulationOptions& options) {
+  std::vector<SimulatedShape> shapes = {{options.object, options.obj_file}};
+  shapes.insert(shapes.end(), options.further.begin(), options.further.end());
+  return shapes;
 }
 
 hal::Fault ParseSimulationUri(const Uri& uri, SimulationOptions& options) {
@@ -158,14 +207,18 @@ hal::Fault ParseSimulationUri(const Uri& uri, SimulationOptions& options) {
   return fault;
 }
 
-std::string ObjectName(const SimulationOptions& options) {
-  for (const auto& [word, kind] : kObjects) {
-    if (kind == options.object) return std::string(word);
+std::string ObjectName(const SimulationOptions& options) { return ObjectNames(options).front(); }
+
+std::vector<std::string> ObjectNames(const SimulationOptions& options) {
+  std::vector<std::string> names;
+  for (const SimulatedShape& shape : ObjectShapes(options)) {
+    const std::string plain = NameOf(shape);
+    std::string name = plain;
+    for (int number = 2; std::find(names.begin(), names.end(), name) != names.end(); ++number)
+      name = plain + std::to_string(number);
+    names.push_back(std::move(name));
   }
-  const std::string& file = options.obj_file;
-  const std::size_t slash = file.rfind('/');
-  const std::string name = slash == std::string::npos ? file : file.substr(slash + 1);
-  return name.substr(0, name.rfind('.'));
+  return names;
 }
 
 std::string SimulationOptionsHelp() {

@@ -98,6 +98,31 @@ TEST_F(LinkTest, UdpReceiver_GetsPoseAndStatusOfEveryFrameAndHeartbeats) {
   }
 }
 
+TEST_F(LinkTest, SeveralObjects_AreAComponentEach) {
+  Receiver receiver;
+  const Outcome outcome =
+      RunTrack({"--sensor", "sim:box+bottle?frames=10", "--object", "name=box,label=1", "--object",
+                "name=bottle,label=2,index=7", "--link", "udp://127.0.0.1:" + receiver.port()},
+               scratch());
+  ASSERT_EQ(outcome.exit_status, 0) << outcome.err;
+  std::map<std::pair<int, std::uint32_t>, int> messages;
+  std::map<int, std::vector<int>> sequence_numbers;
+  receiver.Drain([&](const mavlink::FrameView& frame) {
+    const int object = frame.header.component_id - mavlink::kFirstComponentId;
+    ++messages[{object, frame.message_id}];
+    sequence_numbers[object].push_back(frame.header.sequence);
+  });
+  for (const int object : {0, 7}) {
+    EXPECT_EQ((messages[{object, mavlink::Odometry::kId}]), 10);
+    EXPECT_EQ((messages[{object, mavlink::DisflowStatus::kId}]), 10);
+    EXPECT_GE((messages[{object, mavlink::Heartbeat::kId}]), 1);
+    const std::vector<int>& numbers = sequence_numbers[object];
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+      EXPECT_EQ(numbers[i], static_cast<int>(i)) << "each component counts for itself";
+  }
+  EXPECT_EQ(sequence_numbers.size(), 2U);
+}
+
 TEST_F(LinkTest, NobodyListens_TrackingGoesOn) {
   const Outcome outcome = RunTrack(
       {"--sensor", "sim:bottle?frames=5", "--link", "udp://127.0.0.1:9", "--csv", Path("run.csv")},

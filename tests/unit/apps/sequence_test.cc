@@ -26,6 +26,31 @@ TEST(SequenceTest, Simulation_CarriesTruthModelAndImages) {
   EXPECT_LT(seen_count, 350) << "the far side cannot be seen";
 }
 
+TEST(SequenceTest, OneOfSeveralSimulatedObjects_IsTheOneAskedFor) {
+  const std::string address = "sim:box+bottle?frames=3&width=160&height=96";
+  const Sequence box = OpenSequence(address, {}, "box");
+  const Sequence bottle = OpenSequence(address, {}, "bottle");
+  EXPECT_EQ(bottle.model_name, "bottle");
+  EXPECT_GT(bottle.truth.T_ct[0].translation().z(), box.truth.T_ct[0].translation().z() + 0.2);
+  for (const char* object : {"", "can"}) {
+    EXPECT_PRED_FORMAT2(testing::IsSubstring, "--object one of: box bottle",
+                        MessageOf<InputError>([&] { (void)OpenSequence(address, {}, object); }));
+  }
+}
+
+TEST(SequenceTest, OneOfSeveralRecordedObjects_IsTheOneAskedFor) {
+  const ScratchDir dir;
+  dir.Write("gt/cup/poses.txt", "0 0 0.5 0 0 1 0\n");
+  dir.Write("gt/pen/poses.txt", "0 0 0.7 0 0 1 0\n");
+  const auto model = dir.Write("points.xyz", "0 0 0\n0 0 1\n");
+  const std::string folder = dir.path().string();
+  EXPECT_EQ(OpenSequence(folder, model, "pen").truth.T_ct[0].translation().z(), 0.7);
+  for (const char* object : {"", "fork"}) {
+    EXPECT_PRED_FORMAT2(testing::IsSubstring, "--object one of: cup pen",
+                        MessageOf<InputError>([&] { (void)OpenSequence(folder, model, object); }));
+  }
+}
+
 TEST(SequenceTest, DroppedFrames_AreNoFramesOfTheSequence) {
   const Sequence sequence = OpenSequence("sim:box?frames=40&drop=0.5&width=160&height=96");
   EXPECT_LT(sequence.truth.T_ct.size(), 35U);

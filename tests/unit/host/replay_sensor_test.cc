@@ -108,6 +108,69 @@ TEST_F(ReplaySensorTest, MaskSet_IsTheOneAskedFor) {
   ExpectRefused(Status::kNotFound, {"mrcnn", "gt, sloppy, none"}, options);
 }
 
+/// A sequence with the masks of a second object.
+class TwoMasks : public ReplaySensorTest {
+ protected:
+  void SetUp() override {
+    ReplaySensorTest::SetUp();
+    for (int i = 0; i < kFrames; ++i) {
+      // The right half of the image, so that it overlaps the box.
+      std::vector<std::uint8_t> right(64 * 48, 0);
+      for (std::size_t pixel = 0; pixel < right.size(); ++pixel)
+        right[pixel] = pixel % 64 >= 32 ? 255 : 0;
+      const fs::path file = path() / "masks" / "gt" / ("right_" + std::to_string(i) + ".png");
+      ASSERT_TRUE(WriteGray8Png(file, right.data(), 64, 48, 64).ok());
+    }
+  }
+  std::vector<CopiedFrame> Play(const std::string& object) {
+    ReplayOptions options = Replay();
+    options.object = object;
+    ReplaySensor sensor(options);
+    EXPECT_TRUE(sensor.Open().ok());
+    return PlayAll(sensor);
+  }
+};
+
+TEST_F(TwoMasks, OfBothObjects_AreOneMaskWithLabels) {
+  const std::vector<CopiedFrame> frames = Play("box+right");
+  ASSERT_EQ(frames.size(), std::size_t{kFrames});
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    for (std::size_t pixel = 0; pixel < frames[i].mask.size(); ++pixel) {
+      const bool is_box = frames_[i].mask[pixel] != 0;
+      const int expected = is_box ? 1 : pixel % 64 >= 32 ? 2 : 0;
+      ASSERT_EQ(frames[i].mask[pixel], expected) << i << ' ' << pixel;
+    }
+  }
+  EXPECT_EQ(Play("box")[3].mask, frames_[3].mask) << "of one object as it is";
+}
+
+TEST_F(TwoMasks, MissingOne_IsHeldAlone) {
+  fs::remove(mask(2));
+  const std::vector<CopiedFrame> frames = Play("right+box");
+  for (std::size_t pixel = 0; pixel < frames[2].mask.size(); ++pixel) {
+    const int expected = pixel % 64 >= 32 ? 1 : frames_[1].mask[pixel] != 0 ? 2 : 0;
+    ASSERT_EQ(frames[2].mask[pixel], expected) << pixel;
+  }
+}
+
+TEST_F(TwoMasks, WithoutAName_OrWithAWrongOne_AreRefused) {
+  ReplayOptions options = Replay();
+  ExpectRefused(Status::kNotFound, {"object=NAME", "box", "right"}, options);
+  options.object = "box+left";
+  ExpectRefused(Status::kNotFound, {"joined by +", "box", "right"}, options);
+}
+
+TEST_F(ReplaySensorTest, ValuesOfAMask_AreKeptAsLabels) {
+  std::vector<std::uint8_t> labels(64 * 48, 0);
+  labels[70] = 1;
+  labels[71] = 2;
+  labels[72] = 255;
+  ASSERT_TRUE(WriteGray8Png(mask(0), labels.data(), 64, 48, 64).ok());
+  ReplaySensor sensor(Replay());
+  ASSERT_TRUE(sensor.Open().ok());
+  EXPECT_EQ(PlayAll(sensor)[0].mask, labels);
+}
+
 TEST_F(ReplaySensorTest, MissingMask_IsHeldAndCounted) {
   fs::remove(mask(2));
   fs::remove(mask(3));

@@ -5,6 +5,7 @@
 
 #include <sstream>
 
+#include "disflow/host/png_image.h"
 #include "recorded_sequence.h"
 
 namespace disflow::host {
@@ -51,6 +52,34 @@ TEST_F(RecordedSequence, Truth_IsWrittenAsAxisAngleAndTwist) {
     EXPECT_LT((v - truth.object.linear_mps).norm(), 1e-10);
     EXPECT_LT((w - truth.object.angular_rps).norm(), 1e-10);
   }
+}
+
+TEST_F(RecordedSequence, SeveralObjects_HaveMasksAndTruthOfTheirOwn) {
+  const fs::path folder = path().parent_path() / "several";
+  SequenceWriter writer;
+  ASSERT_TRUE(writer.Open(folder, "", false).ok());
+  DepthFrame frame = frames_[0].frame;
+  frame.depth.data = frames_[0].depth.data();
+  ASSERT_TRUE(writer.AddFrame(frame).ok());
+  std::vector<std::uint8_t> labels(64 * 48, 0);
+  labels[5] = 1;
+  labels[6] = 2;
+  for (const auto& [name, label] : {std::pair{"cup", std::uint8_t{1}}, {"pen", std::uint8_t{2}}}) {
+    const MaskView mask{labels.data(), 64, 48, 64, label};
+    ASSERT_TRUE(writer.AddMaskOf(name, "gt", mask).ok());
+    ASSERT_TRUE(writer.AddTruthOf(name, truths_[label].object).ok());
+  }
+  ASSERT_TRUE(writer.Finish().ok());
+  GrayImage pen;
+  ASSERT_TRUE(ReadGrayPng(folder / "masks" / "gt" / "pen_0.png", pen).ok());
+  EXPECT_EQ(pen.pixels[5], 0);
+  EXPECT_EQ(pen.pixels[6], 255);
+  for (const char* name : {"cup", "pen"}) {
+    EXPECT_TRUE(fs::exists(folder / "gt" / name / "poses.txt"));
+    EXPECT_TRUE(fs::exists(folder / "gt" / name / "velocities.txt"));
+  }
+  EXPECT_NE(TextOf(folder / "gt" / "cup" / "poses.txt"),
+            TextOf(folder / "gt" / "pen" / "poses.txt"));
 }
 
 TEST_F(RecordedSequence, NotEmptyFolder_IsKeptUnlessOverwritten) {

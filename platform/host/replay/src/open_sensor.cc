@@ -20,9 +20,9 @@ Fault OpenReplay(const Uri& uri, Sensor& sensor) {
 Fault OpenSimulation(const Uri& uri, Sensor& sensor) {
   SimulationOptions options;
   if (const Fault fault = ParseSimulationUri(uri, options); !fault.ok()) return fault;
-  TriangleMesh mesh;
-  if (const Fault fault = LoadSimulatedObject(options, mesh); !fault.ok()) return fault;
-  auto& simulated = sensor.Emplace<SimulatedSensor>(options, std::move(mesh));
+  std::vector<TriangleMesh> meshes;
+  if (const Fault fault = LoadSimulatedObjects(options, meshes); !fault.ok()) return fault;
+  auto& simulated = sensor.Emplace<SimulatedSensor>(options, std::move(meshes));
   sensor.set_simulated(&simulated);
   return simulated.Open();
 }
@@ -44,12 +44,15 @@ std::string SensorHelp() {
   return "  replay:DIR   a recorded sequence: the Fast-YCB layout, or 16-bit PNG depth images with "
          "cam_K.json or\n"
          "               camera-intrinsics.txt. Options: mask=gt|none|SET (a folder in masks/), "
-         "object=NAME (whose masks),\n"
+         "object=NAME (whose masks;\n"
+         "               several joined by + have the labels 1, 2, ...),\n"
          "               scale=0.001 (metres per PNG unit), K=fx,fy,cx,cy, T_wc=auto|poses|none "
          "(camera poses from\n"
          "               T_wc.txt or pose/*.txt), first=N, count=N\n"
          "  sim:OBJECT   a simulated depth camera; OBJECT is box, bottle, can, doughnut or "
-         "obj:FILE. Options:\n" +
+         "obj:FILE,\n"
+         "               or up to four of these joined by +, whose masks have the labels 1, 2, ... "
+         "Options:\n" +
          SimulationOptionsHelp();
 }
 

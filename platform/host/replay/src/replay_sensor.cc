@@ -25,6 +25,13 @@ Fault AsLostFrame(Fault fault) {
 
 }  // namespace
 
+/// The last mask of an object.
+struct ObjectMask {
+  std::vector<std::uint8_t> pixels;
+  int width_px = 0;
+  int height_px = 0;
+};
+
 /// The open sequence and its buffers, which are reused from frame to frame.
 struct ReplaySensor::State {
   explicit State(const ReplayOptions& replay_options) : options(replay_options) {}
@@ -32,7 +39,8 @@ struct ReplaySensor::State {
   [[nodiscard]] Fault FindSize();
   [[nodiscard]] Fault ReadFrame(const RecordedFrame& source, DepthFrame& frame);
   [[nodiscard]] Fault ReadDepth(const RecordedFrame& source, DepthFrame& frame);
-  [[nodiscard]] Fault ReadMask(const RecordedFrame& source, DepthFrame& frame);
+  [[nodiscard]] Fault ReadMasks(const RecordedFrame& source, DepthFrame& frame);
+  [[nodiscard]] Fault ReadMask(const std::filesystem::path& path, ObjectMask& mask);
 
   const ReplayOptions& options;
   SequenceIndex index;
@@ -41,9 +49,8 @@ struct ReplaySensor::State {
   FloatImage depth_float;
   GrayImage depth_png;
   GrayImage mask_png;
-  std::vector<std::uint8_t> mask;
-  int mask_width_px = 0;
-  int mask_height_px = 0;
+  std::vector<ObjectMask> masks;  ///< One per object.
+  std::vector<std::uint8_t> labels;
   int held_masks = 0;
   std::size_t next = 0;
   hal::SensorCounters counters;
@@ -77,7 +84,7 @@ Fault ReplaySensor::State::ReadFrame(const RecordedFrame& source, DepthFrame& fr
                            source.depth.c_str(), frame.depth.width_px, frame.depth.height_px,
                            width_px, height_px);
   }
-  if (fault.ok() && index.has_masks) fault = ReadMask(source, frame);
+  if (fault.ok() && index.masked_objects > 0) fault = ReadMasks(source, frame);
   return AsLostFrame(fault);
 }
 
@@ -102,22 +109,50 @@ Fault ReplaySensor::State::ReadDepth(const RecordedFrame& source, DepthFrame& fr
   return fault;
 }
 
-Fault ReplaySensor::State::ReadMask(const RecordedFrame& source, DepthFrame& frame) {
-  if (source.mask.empty()) {
-    ++held_masks;
-  } else {
-    Fault fault = ReadGrayPng(source.mask, mask_png);
-    // What there is of a cut mask would be taken for the whole object.
-    if (!fault.ok()) fault.status = Status::kCorrupt;
+Fault ReplaySensor::State::ReadMasks(const RecordedFrame& source, DepthFrame& frame) {
+  for (std::size_t i = 0; i < masks.size(); ++i) {
+    const Fault fault = ReadMask(source.masks[i], masks[i]);
     if (!fault.ok()) return fault;
-    mask.resize(mask_png.pixels.size());
-    std::transform(
-        mask_png.pixels.begin(), mask_png.pixels.end(), mask.begin(),
-        [](std::uint16_t value) { return static_cast<std::uint8_t>(value != 0 ? 255 : 0); });
-    mask_width_px = mask_png.width_px;
-    mask_height_px = mask_png.height_px;
   }
-  frame.mask = {mask.data(), mask_width_px, mask_height_px, mask_width_px};
+  if (masks.size() == 1) {
+    const ObjectMask& mask = masks.front();
+    frame.mask = {mask.pixels.data(), mask.width_px, mask.height_px, mask.width_px};
+    return {};
+  }
+  labels.assign(labels.size(), 0);
+  // The first last, so that it wins where masks overlap.
+  for (std::size_t i = masks.size(); i-- > 0;) {
+    const ObjectMask& mask = masks[i];
+    if (mask.width_px != width_px || mask.height_px != height_px) {
+      return hal::MakeFault(Status::kCorrupt, "%s: is %d x %d pixels, the depth image %d x %d",
+                            source.masks[i].c_str(), mask.width_px, mask.height_px, width_px,
+                            height_px);
+    }
+    for (std::size_t pixel = 0; pixel < labels.size(); ++pixel)
+      if (mask.pixels[pixel] != 0) labels[pixel] = static_cast<std::uint8_t>(i + 1);
+  }
+  frame.mask = {labels.data(), width_px, height_px, width_px};
+  return {};
+}
+
+Fault ReplaySensor::State::ReadMask(const std::filesystem::path& path, ObjectMask& mask) {
+  if (path.empty()) {
+    ++held_masks;
+    return {};
+  }
+  Fault fault = ReadGrayPng(path, mask_png);
+  // What there is of a cut mask would be taken for the whole object.
+  if (!fault.ok()) fault.status = Status::kCorrupt;
+  if (!fault.ok()) return fault;
+  mask.pixels.resize(mask_png.pixels.size());
+  // Values are kept, since they may be labels.
+  std::transform(mask_png.pixels.begin(), mask_png.pixels.end(), mask.pixels.begin(),
+                 [](std::uint16_t value) {
+                   constexpr std::uint16_t kHighest = 255;
+                   return static_cast<std::uint8_t>(std::min<std::uint16_t>(value, kHighest));
+                 });
+  mask.width_px = mask_png.width_px;
+  mask.height_px = mask_png.height_px;
   return {};
 }
 
@@ -134,10 +169,10 @@ Fault ReplaySensor::DoOpen() noexcept try {
   Fault fault = IndexSequence(options_, state.index);
   if (fault.ok()) fault = state.FindSize();
   if (!fault.ok()) return fault;
-  state.mask.assign(
+  state.labels.assign(
       static_cast<std::size_t>(state.width_px) * static_cast<std::size_t>(state.height_px), 0);
-  state.mask_width_px = state.width_px;
-  state.mask_height_px = state.height_px;
+  state.masks.assign(static_cast<std::size_t>(state.index.masked_objects),
+                     {state.labels, state.width_px, state.height_px});
   state.held_masks = 0;
   state.next = 0;
   state.counters = {};

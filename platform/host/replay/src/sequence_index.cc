@@ -112,17 +112,40 @@ std::string ListMaskSets(const fs::path& masks) {
   return list + "none";
 }
 
-/// The object whose masks are used: the one asked for, or the only one.
-hal::Fault ChooseObject(const fs::path& folder, const std::vector<NumberedFile>& files,
-                        const std::string& wanted, std::string& prefix) {
+std::vector<std::string> SplitNames(const std::string& names) {
+  std::vector<std::string> list;
+  for (std::size_t begin = 0; begin <= names.size();) {
+    const std::size_t end = std::min(names.find('+', begin), names.size());
+    list.push_back(names.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return list;
+}
+
+/// The objects whose masks are used: those asked for, or the only one.
+hal::Fault ChooseObjects(const fs::path& folder, const std::vector<NumberedFile>& files,
+                         const std::string& wanted, std::vector<std::string>& chosen) {
   std::set<std::string> prefixes;
   for (const NumberedFile& file : files) prefixes.insert(file.prefix);
-  prefix = wanted.empty() ? *prefixes.begin() : wanted + "_";
-  if (prefixes.contains(prefix) && (prefixes.size() == 1 || !wanted.empty())) return {};
+  if (wanted.empty()) {
+    chosen = {*prefixes.begin()};
+    if (prefixes.size() == 1) return {};
+  } else {
+    chosen.clear();
+    // A name with a + in it is one name, if there is such a one.
+    const bool is_one = prefixes.contains(wanted + "_");
+    for (const std::string& name : is_one ? std::vector{wanted} : SplitNames(wanted))
+      chosen.push_back(name + "_");
+    if (std::all_of(chosen.begin(), chosen.end(),
+                    [&](const std::string& prefix) { return prefixes.contains(prefix); })) {
+      return {};
+    }
+  }
   std::string list;
   for (const std::string& name : prefixes) list.append(" ").append(name, 0, name.rfind('_'));
-  return hal::MakeFault(Status::kNotFound, "%s: choose with object=NAME one of:%s", folder.c_str(),
-                        list.c_str());
+  return hal::MakeFault(Status::kNotFound,
+                        "%s: choose with object=NAME, or several joined by +, of:%s",
+                        folder.c_str(), list.c_str());
 }
 
 hal::Fault FindMasks(const ReplayOptions& options, SequenceIndex& index) {
@@ -136,18 +159,25 @@ hal::Fault FindMasks(const ReplayOptions& options, SequenceIndex& index) {
     return hal::MakeFault(Status::kNotFound, "%s: holds no masks; available: %s", folder.c_str(),
                           ListMaskSets(masks).c_str());
   }
-  std::string prefix;
-  fault = ChooseObject(folder, files, options.object, prefix);
+  std::vector<std::string> prefixes;
+  fault = ChooseObjects(folder, files, options.object, prefixes);
   if (!fault.ok()) return fault;
-  std::map<std::uint64_t, fs::path> by_number;
-  for (const NumberedFile& file : files) {
-    if (file.prefix == prefix) by_number[file.number] = file.path;
+  constexpr std::size_t kMostLabels = 255;
+  if (prefixes.size() > kMostLabels) {
+    return hal::MakeFault(Status::kInvalidUri, "object= names %zu objects; a mask has %zu labels",
+                          prefixes.size(), kMostLabels);
   }
-  for (RecordedFrame& frame : index.frames) {
-    const auto found = by_number.find(frame.number);
-    if (found != by_number.end()) frame.mask = found->second;
+  for (const std::string& prefix : prefixes) {
+    std::map<std::uint64_t, fs::path> by_number;
+    for (const NumberedFile& file : files) {
+      if (file.prefix == prefix) by_number[file.number] = file.path;
+    }
+    for (RecordedFrame& frame : index.frames) {
+      const auto found = by_number.find(frame.number);
+      frame.masks.push_back(found != by_number.end() ? found->second : fs::path());
+    }
   }
-  index.has_masks = true;
+  index.masked_objects = static_cast<int>(prefixes.size());
   return {};
 }
 

@@ -16,7 +16,8 @@ namespace disflow::host {
 struct RecordedFrame {
   std::uint64_t number = 0;     ///< In the names of its files.
   std::filesystem::path depth;  ///< May not exist, if the sequence lists it all the same.
-  std::filesystem::path mask;   ///< Empty = this image has none.
+  /// One per object, in the order of their labels; empty = this image has none.
+  std::vector<std::filesystem::path> masks;
   StampNs stamp_ns = 0;
   Transform<World, Camera> T_wc;
 };
@@ -25,7 +26,7 @@ struct RecordedFrame {
 struct SequenceIndex {
   CameraDescription camera;
   bool float_depth = false;  ///< Fast-YCB's .float files; else 16-bit PNG.
-  bool has_masks = false;
+  int masked_objects = 0;  ///< 0: there are no masks.
   bool has_T_wc = false;
   std::vector<RecordedFrame> frames;  ///< Never empty after success.
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "disflow/host/sequence_writer.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cerrno>
@@ -46,6 +47,11 @@ hal::Fault RemoveSequence(const fs::path& dir) {
   return {};
 }
 
+/// @param name Empty: of the only object.
+fs::path TruthFolder(std::string_view name) {
+  return name.empty() ? fs::path(kTruthFolder) : fs::path(kTruthFolder) / name;
+}
+
 /// `x y z nx ny nz theta`.
 template <class A, class B>
 std::string FormatPose(const Transform<A, B, double>& pose) {
@@ -78,6 +84,7 @@ hal::Fault SequenceWriter::Open(const fs::path& dir, std::string_view object, bo
   dir_ = dir;
   object_ = object;
   frames_ = 0;
+  truths_.clear();
   data_.open(dir / kDataFile, std::ios::binary);
   return data_ ? hal::Fault{} : WriteFault(dir / kDataFile);
 }
@@ -151,6 +158,25 @@ hal::Fault SequenceWriter::WriteDepth(const DepthView& depth) {
 }
 
 hal::Fault SequenceWriter::AddMask(std::string_view set, const MaskView& mask) {
+  return WriteMask(object_, set, mask);
+}
+
+hal::Fault SequenceWriter::AddMaskOf(std::string_view object, std::string_view set,
+                                     const MaskView& mask) {
+  const auto width = static_cast<std::size_t>(mask.width_px);
+  mask_.resize(width * static_cast<std::size_t>(mask.height_px));
+  for (int v = 0; v < mask.height_px; ++v) {
+    std::transform(mask.row(v), mask.row(v) + width,
+                   mask_.begin() + v * static_cast<std::ptrdiff_t>(width),
+                   [&mask](std::uint8_t value) {
+                     return static_cast<std::uint8_t>(value == mask.label ? 255 : 0);
+                   });
+  }
+  return WriteMask(object, set, {mask_.data(), mask.width_px, mask.height_px, mask.width_px});
+}
+
+hal::Fault SequenceWriter::WriteMask(std::string_view object, std::string_view set,
+                                     const MaskView& mask) {
   if (frames_ == 0) return hal::MakeFault(Status::kNotOpen, "sequence writer: no frame added yet");
   if (mask.width_px != width_px_ || mask.height_px != height_px_) {
     return hal::MakeFault(Status::kMaskSizeMismatch, "%s: mask of frame %d is %dx%d, depth %dx%d",
@@ -160,24 +186,37 @@ hal::Fault SequenceWriter::AddMask(std::string_view set, const MaskView& mask) {
   const fs::path folder = dir_ / kMaskFolder / set;
   const hal::Fault fault = MakeFolder(folder);
   if (!fault.ok()) return fault;
-  const std::string name = object_ + "_" + std::to_string(frames_ - 1) + kImageExtension;
+  const std::string name =
+      std::string(object) + "_" + std::to_string(frames_ - 1) + kImageExtension;
   return WriteGray8Png(folder / name, mask.data, width_px_, height_px_, mask.stride_bytes);
 }
 
-hal::Fault SequenceWriter::AddTruth(const RigidState<Camera, Object>& object) {
+SequenceWriter::TruthFiles& SequenceWriter::TruthOf(std::string_view name) {
+  for (TruthFiles& truth : truths_) {
+    if (truth.name == name) return truth;
+  }
+  TruthFiles& truth = truths_.emplace_back();
+  truth.name = name;
+  return truth;
+}
+
+hal::Fault SequenceWriter::AddTruthOf(std::string_view name,
+                                      const RigidState<Camera, Object>& object) {
   if (frames_ == 0) return hal::MakeFault(Status::kNotOpen, "sequence writer: no frame added yet");
-  hal::Fault fault = MakeFolder(dir_ / kTruthFolder);
-  if (fault.ok()) fault = AppendLine(poses_, kPoseFile, FormatPose(object.pose));
+  TruthFiles& truth = TruthOf(name);
+  const fs::path folder = TruthFolder(name);
+  hal::Fault fault = MakeFolder(dir_ / folder);
+  if (fault.ok()) fault = AppendLine(truth.poses, folder / kPoseFile, FormatPose(object.pose));
   if (!fault.ok()) return fault;
   const Vec3d& v = object.linear_mps;
   const Vec3d& w = object.angular_rps;
   std::array<char, 192> line{};
   (void)std::snprintf(line.data(), line.size(), "%.12g %.12g %.12g %.12g %.12g %.12g", v.x(), v.y(),
                       v.z(), w.x(), w.y(), w.z());
-  return AppendLine(velocities_, kVelocityFile, line.data());
+  return AppendLine(truth.velocities, folder / kVelocityFile, line.data());
 }
 
-hal::Fault SequenceWriter::AppendLine(std::ofstream& stream, const char* name,
+hal::Fault SequenceWriter::AppendLine(std::ofstream& stream, const std::string& name,
                                       const std::string& line) {
   if (!stream.is_open()) stream.open(dir_ / name, std::ios::binary);
   stream << line << '\n';
@@ -186,14 +225,16 @@ hal::Fault SequenceWriter::AppendLine(std::ofstream& stream, const char* name,
 
 hal::Fault SequenceWriter::Finish() {
   hal::Fault fault;
-  const auto close = [&](std::ofstream& stream, const char* name) {
+  const auto close = [&](std::ofstream& stream, const fs::path& name) {
     if (!stream.is_open()) return;
     stream.close();
     if (!stream && fault.ok()) fault = WriteFault(dir_ / name);
   };
   close(data_, kDataFile);
-  close(poses_, kPoseFile);
-  close(velocities_, kVelocityFile);
+  for (TruthFiles& truth : truths_) {
+    close(truth.poses, TruthFolder(truth.name) / kPoseFile);
+    close(truth.velocities, TruthFolder(truth.name) / kVelocityFile);
+  }
   close(world_poses_, kWorldPoseFile);
   dir_.clear();
   return fault;

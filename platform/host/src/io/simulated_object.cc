@@ -8,13 +8,15 @@
 
 namespace disflow::host {
 
-hal::Fault LoadSimulatedObject(const SimulationOptions& options, TriangleMesh& mesh) {
-  if (options.object != ObjectKind::kObjFile) {
-    mesh = MakeObjectMesh(options.object);
+namespace {
+
+hal::Fault Load(const SimulatedShape& shape, TriangleMesh& mesh) {
+  if (shape.object != ObjectKind::kObjFile) {
+    mesh = MakeObjectMesh(shape.object);
     return {};
   }
   TriangleMesh read;
-  const hal::Fault fault = ReadObj(options.obj_file, read);
+  const hal::Fault fault = ReadObj(shape.obj_file, read);
   if (!fault.ok()) return fault;
   MoveCentreToOrigin(read);
   constexpr double kMinRadius_m = 0.01;
@@ -23,9 +25,26 @@ hal::Fault LoadSimulatedObject(const SimulationOptions& options, TriangleMesh& m
   if (radius_m < kMinRadius_m || radius_m > kMaxRadius_m) {
     return hal::MakeFault(Status::kUnsupported,
                           "%s: is %.4g m across; 0.02 to 2 m are needed (are its units metres?)",
-                          options.obj_file.c_str(), 2.0 * radius_m);
+                          shape.obj_file.c_str(), 2.0 * radius_m);
   }
   mesh = std::move(read);
+  return {};
+}
+
+}  // namespace
+
+hal::Fault LoadSimulatedObject(const SimulationOptions& options, TriangleMesh& mesh) {
+  return Load({options.object, options.obj_file}, mesh);
+}
+
+hal::Fault LoadSimulatedObjects(const SimulationOptions& options,
+                                std::vector<TriangleMesh>& meshes) {
+  std::vector<TriangleMesh> read;
+  for (const SimulatedShape& shape : ObjectShapes(options)) {
+    const hal::Fault fault = Load(shape, read.emplace_back());
+    if (!fault.ok()) return fault;
+  }
+  meshes = std::move(read);
   return {};
 }
 

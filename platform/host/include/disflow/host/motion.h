@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
+#include <vector>
 
 #include "disflow/host/rigid_state.h"
 #include "disflow/host/simulation_options.h"
@@ -18,6 +20,12 @@ struct Workspace {
 /// The largest box at 0.55 m or more in which a sphere of that radius stays inside of the image.
 [[nodiscard]] Workspace FitWorkspace(const PinholeCamera& camera, int width_px, int height_px,
                                      double radius_m);
+
+/// The same for several objects, one behind the other: their spheres never touch, and the nearer
+/// ones pass in front of the farther ones.
+[[nodiscard]] std::vector<Workspace> StackWorkspaces(const PinholeCamera& camera, int width_px,
+                                                     int height_px,
+                                                     std::span<const double> radii_m);
 
 /// An object's motion in the world; a pure function of time.
 class ObjectMotion {

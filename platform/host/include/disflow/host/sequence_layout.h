@@ -13,8 +13,9 @@ inline constexpr const char* kDepthFolder = "depth";
 inline constexpr const char* kMaskedDepthFolder = "masked_depth";
 inline constexpr const char* kMaskFolder = "masks";
 inline constexpr const char* kTruthFolder = "gt";
-inline constexpr const char* kPoseFile = "gt/poses.txt";
-inline constexpr const char* kVelocityFile = "gt/velocities.txt";
+/// In kTruthFolder, or in a folder of the object's name in it.
+inline constexpr const char* kPoseFile = "poses.txt";
+inline constexpr const char* kVelocityFile = "velocities.txt";
 inline constexpr const char* kWorldPoseFile = "T_wc.txt";
 inline constexpr const char* kPoseFolder = "pose";
 inline constexpr const char* kDepthExtension = ".float";

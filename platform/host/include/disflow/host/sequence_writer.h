@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
+#include <deque>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -17,6 +19,7 @@ namespace disflow::host {
 /// .png, data.txt; if given also gt/poses.txt, gt/velocities.txt and T_wc.txt.
 ///
 /// T_wc.txt is this project's addition: one line `x y z nx ny nz theta` per frame, camera in world.
+/// So is a folder gt/OBJECT for each of several objects, in place of gt alone.
 class SequenceWriter {
  public:
   SequenceWriter() = default;
@@ -30,10 +33,18 @@ class SequenceWriter {
 
   /// Writes depth, stamp and, if given, T_wc. The first frame fixes size and camera of all.
   [[nodiscard]] hal::Fault AddFrame(const DepthFrame& frame);
-  /// A mask of the frame that was added last.
+  /// A mask of the frame that was added last, as it is.
   [[nodiscard]] hal::Fault AddMask(std::string_view set, const MaskView& mask);
+  /// The mask of one of several objects: 255 where mask.label is.
+  [[nodiscard]] hal::Fault AddMaskOf(std::string_view object, std::string_view set,
+                                     const MaskView& mask);
   /// Pose and twist of the frame that was added last.
-  [[nodiscard]] hal::Fault AddTruth(const RigidState<Camera, Object>& object);
+  [[nodiscard]] hal::Fault AddTruth(const RigidState<Camera, Object>& object) {
+    return AddTruthOf("", object);
+  }
+  /// The same of one of several objects.
+  [[nodiscard]] hal::Fault AddTruthOf(std::string_view name,
+                                      const RigidState<Camera, Object>& object);
 
   /// Makes sure that all is on disk. No more can be added then.
   [[nodiscard]] hal::Fault Finish();
@@ -41,9 +52,19 @@ class SequenceWriter {
   [[nodiscard]] int frame_count() const { return frames_; }
 
  private:
+  /// Of one object.
+  struct TruthFiles {
+    std::string name;
+    std::ofstream poses;
+    std::ofstream velocities;
+  };
+
+  [[nodiscard]] hal::Fault WriteMask(std::string_view object, std::string_view set,
+                                     const MaskView& mask);
+  [[nodiscard]] TruthFiles& TruthOf(std::string_view name);
   [[nodiscard]] hal::Fault WriteCamera(const DepthFrame& frame);
   [[nodiscard]] hal::Fault WriteDepth(const DepthView& depth);
-  [[nodiscard]] hal::Fault AppendLine(std::ofstream& stream, const char* name,
+  [[nodiscard]] hal::Fault AppendLine(std::ofstream& stream, const std::string& name,
                                       const std::string& line);
 
   std::filesystem::path dir_;
@@ -53,8 +74,8 @@ class SequenceWriter {
   int height_px_ = 0;
   std::vector<float> row_m_;
   std::ofstream data_;
-  std::ofstream poses_;
-  std::ofstream velocities_;
+  std::deque<TruthFiles> truths_;
+  std::vector<std::uint8_t> mask_;
   std::ofstream world_poses_;
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vector>
+
 #include "disflow/hal/fault.h"
 #include "disflow/host/simulation_options.h"
 #include "disflow/host/triangle_mesh.h"
@@ -11,5 +13,8 @@ namespace disflow::host {
 /// that the centre of its bounding box is its origin.
 /// @param mesh Unchanged unless the result is ok.
 [[nodiscard]] hal::Fault LoadSimulatedObject(const SimulationOptions& options, TriangleMesh& mesh);
+/// The same of all objects.
+[[nodiscard]] hal::Fault LoadSimulatedObjects(const SimulationOptions& options,
+                                              std::vector<TriangleMesh>& meshes);
 
 }  // namespace disflow::host

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "disflow/hal/depth_sensor.h"
 #include "disflow/host/simulation.h"
@@ -13,8 +14,10 @@ namespace disflow::host {
 class SimulatedSensor final : public hal::DepthSensor {
  public:
   SimulatedSensor(const SimulationOptions& options, TriangleMesh mesh);
+  /// @param meshes One per object of the options.
+  SimulatedSensor(const SimulationOptions& options, std::vector<TriangleMesh> meshes);
 
-  /// Of the frame that Next() delivered last.
+  /// Of the frame that Next() delivered last; of the first object.
   [[nodiscard]] const FrameTruth& truth() const { return truth_; }
   [[nodiscard]] const Simulation& simulation() const { return simulation_; }
 

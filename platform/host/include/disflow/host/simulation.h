@@ -25,16 +25,21 @@ struct FrameTruth {
   RigidState<World, Camera> camera;   ///< World = first camera frame.
 };
 
-/// A moving object before a wall and a table top, seen by a depth camera. A pure function of the
+/// Moving objects before a wall and a table top, seen by a depth camera. A pure function of the
 /// options: any frame may be rendered in any order, only the sloppy mask needs increasing order.
+/// Several objects move one behind the other, each in its own way; occluders and supports are those
+/// of the first.
 class Simulation {
  public:
   static constexpr StampNs kFirstStamp_ns = 1'000'000'000;
 
   /// @param mesh The object, its origin about in its middle.
   Simulation(const SimulationOptions& options, TriangleMesh mesh);
+  /// @param meshes One per object of the options.
+  Simulation(const SimulationOptions& options, std::vector<TriangleMesh> meshes);
 
-  [[nodiscard]] FrameTruth TruthAt(int index) const;
+  /// @param object From 0, the nearest first.
+  [[nodiscard]] FrameTruth TruthAt(int index, std::size_t object = 0) const;
   [[nodiscard]] bool IsDropped(int index) const {
     return dropped_[static_cast<std::size_t>(index)];
   }
@@ -42,15 +47,30 @@ class Simulation {
   /// Takes image `index` (0 to frames - 1). The views stay valid until the next call.
   void Render(int index, DepthFrame& frame);
 
-  /// Masks of the image rendered last.
+  /// Masks of the image rendered last: 255, or with several objects the number of each from 1 on.
   [[nodiscard]] MaskView gt_mask() const { return ViewOf(gt_mask_); }
-  [[nodiscard]] MaskView sloppy_mask() const { return ViewOf(sloppy_.mask()); }
+  [[nodiscard]] MaskView sloppy_mask() const { return ViewOf(sloppy_mask_); }
 
   [[nodiscard]] const SimulationOptions& options() const { return options_; }
-  [[nodiscard]] const TriangleMesh& mesh() const { return mesh_; }
+  [[nodiscard]] std::size_t objects() const { return bodies_.size(); }
+  [[nodiscard]] const TriangleMesh& mesh(std::size_t object = 0) const {
+    return bodies_[object].mesh;
+  }
   [[nodiscard]] const PinholeCamera& camera() const { return camera_; }
 
  private:
+  struct Body {
+    TriangleMesh mesh;
+    double radius_m = 0.0;
+    Workspace workspace;
+    std::unique_ptr<const ObjectMotion> motion;
+    SloppyMask sloppy;
+  };
+
+  [[nodiscard]] static std::vector<Body> MakeBodies(const SimulationOptions& options,
+                                                    std::vector<TriangleMesh> meshes);
+  void DrawBodies(int index);
+  void DrawMasks(int index);
   void DrawScene(int index, const FrameTruth& truth);
   void DrawOccluder(double time_s, const FrameTruth& truth);
   [[nodiscard]] Plane TableAt(double time_s, const FrameTruth& truth) const;
@@ -58,21 +78,19 @@ class Simulation {
   [[nodiscard]] MaskView ViewOf(std::span<const std::uint8_t> mask) const;
 
   SimulationOptions options_;
-  TriangleMesh mesh_;
   PinholeCamera camera_;
-  double radius_m_;
-  Workspace workspace_;
-  std::unique_ptr<const ObjectMotion> object_motion_;
+  std::vector<Body> bodies_;
   std::optional<CameraMotion> camera_motion_;
   std::optional<OccludingArm> arm_;
   std::optional<TouchingHand> hand_;
   DepthRenderer renderer_;
   std::optional<SensorNoise> noise_;
-  SloppyMask sloppy_;
   std::vector<bool> dropped_;
   std::vector<float> depth_m_;
   std::vector<std::uint16_t> depth_mm_;
   std::vector<std::uint8_t> gt_mask_;
+  std::vector<std::uint8_t> sloppy_mask_;
+  std::vector<std::uint8_t> exact_;  ///< Mask of one object.
 };
 
 /// The mesh of a procedural object. @pre options.object is not kObjFile.

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "disflow/depth/depth_frame.h"
 #include "disflow/hal/fault.h"
@@ -34,10 +35,19 @@ enum class SupportKind : std::uint8_t {
 enum class CameraKind : std::uint8_t { kStatic, kMoving };
 enum class MaskKind : std::uint8_t { kGt, kSloppy, kNone };
 
+/// How many objects may move before the camera at once.
+inline constexpr std::size_t kMaxSimulatedObjects = 4;
+
+struct SimulatedShape {
+  ObjectKind object = ObjectKind::kBox;
+  std::string obj_file;  ///< With ObjectKind::kObjFile.
+};
+
 /// What the simulated camera sees and how well.
 struct SimulationOptions {
   ObjectKind object = ObjectKind::kBox;
-  std::string obj_file;  ///< With ObjectKind::kObjFile.
+  std::string obj_file;                 ///< With ObjectKind::kObjFile.
+  std::vector<SimulatedShape> further;  ///< Objects behind it, one behind the other.
   MotionKind motion = MotionKind::kModerate;
   NoiseKind noise = NoiseKind::kClean;
   std::uint64_t seed = 1;
@@ -48,6 +58,8 @@ struct SimulationOptions {
   double focal_px = 0.0;  ///< 0 = as Fast-YCB's camera at this width.
   OccluderKind occluder = OccluderKind::kNone;
   SupportKind support = SupportKind::kNone;
+  /// The object that is not there from 1 to 2 s, from 1 on; 0 = none.
+  int hide = 0;
   double drop = 0.0;  ///< Share of frames that are lost; never the first.
   CameraKind camera = CameraKind::kStatic;
   MaskKind mask = MaskKind::kGt;
@@ -62,15 +74,20 @@ struct SimulationOptions {
 [[nodiscard]] hal::Fault SetSimulationOption(std::string_view key, std::string_view value,
                                              SimulationOptions& options);
 
-/// @param name box, bottle, can, doughnut or obj:FILE.
+/// @param name box, bottle, can, doughnut or obj:FILE; several joined by +, the nearest first.
 [[nodiscard]] hal::Fault SetSimulationObject(std::string_view name, SimulationOptions& options);
 
 /// Reads `sim:OBJECT?key=value&...`.
 /// @param options Unchanged unless the result is ok.
 [[nodiscard]] hal::Fault ParseSimulationUri(const Uri& uri, SimulationOptions& options);
 
-/// "box", "bottle", ... for file names; OBJ files are called by their file name.
+/// "box", "bottle", ... for file names; OBJ files are called by their file name. Of several the
+/// first.
 [[nodiscard]] std::string ObjectName(const SimulationOptions& options);
+/// The names of all objects, each another one: of two boxes the second is "box2".
+[[nodiscard]] std::vector<std::string> ObjectNames(const SimulationOptions& options);
+/// All objects, the nearest first.
+[[nodiscard]] std::vector<SimulatedShape> ObjectShapes(const SimulationOptions& options);
 
 /// The keys with their allowed values, one per line.
 [[nodiscard]] std::string SimulationOptionsHelp();

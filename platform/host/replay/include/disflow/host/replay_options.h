@@ -24,7 +24,9 @@ struct ReplayOptions {
   std::filesystem::path dir;
   /// Folder below masks/; "none" = no mask; empty = gt if the sequence has it, else none.
   std::string mask_set;
-  std::string object;                   ///< Whose masks, if a set holds those of several objects.
+  /// Whose masks, if a set holds those of several objects. Several names joined by +: the mask
+  /// then shows them with the labels 1, 2, ...
+  std::string object;
   std::optional<double> unit_m;         ///< Of 16-bit images; default 0.001.
   std::optional<PinholeCamera> camera;  ///< Instead of the sequence's own.
   WorldPoses world_poses = WorldPoses::kIfRecorded;
