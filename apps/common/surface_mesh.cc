@@ -42,7 +42,7 @@ void AppendLine(std::string& text, const char* format, Values... values) {
 std::size_t SurfaceMesh::KeyHash::operator()(const Key& key) const noexcept {
   std::uint64_t hash = 0xcbf29ce484222325U;  // FNV-1a over 32-bit words
   for (const std::uint32_t word : key) hash = (hash ^ word) * 0x100000001b3U;
-  return hash ^ (hash >> 32U);
+  return static_cast<std::size_t>(hash ^ (hash >> 32U));
 }
 
 std::uint32_t SurfaceMesh::IndexOf(const SurfaceVertex& vertex) {

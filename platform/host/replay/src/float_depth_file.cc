@@ -40,7 +40,7 @@ hal::Fault ReadFloatDepth(const std::filesystem::path& file, FloatImage& image) 
   }
   image.width_px = static_cast<int>(width);
   image.height_px = static_cast<int>(height);
-  image.pixels.resize(width * height);
+  image.pixels.resize(static_cast<std::size_t>(width * height));
   stream.read(reinterpret_cast<char*>(image.pixels.data()),
               static_cast<std::streamsize>(width * height * sizeof(float)));
   if (stream) return {};
