@@ -3,6 +3,7 @@
 
 accuracy: tracks and judges the whole table, checks every figure against its goal.
 ablation: switches one part of the method off at a time.
+objects: two and four objects that pass in front of each other, and the time with one and two threads.
 """
 
 import argparse
@@ -12,6 +13,7 @@ import time
 
 import ablation
 import accuracy
+import objects
 import pages
 import plots
 import runs
@@ -22,11 +24,11 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 def parse(words):
     parser = argparse.ArgumentParser(prog="./dev bench", description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-    parser.add_argument("what", choices=("accuracy", "ablation"))
+    parser.add_argument("what", choices=tuple(MEASURES))
     parser.add_argument("--bin", type=pathlib.Path, default=ROOT / "build/release/bin", help="folder of the programs")
     parser.add_argument("--out", type=pathlib.Path, help="folder for what is measured [build/WHAT]")
     parser.add_argument("--docs", type=pathlib.Path, default=ROOT / "docs", help="folder of the pages [docs]")
-    parser.add_argument("--seeds", type=int, help="seeds 1 to N [accuracy: 5, ablation: 3]")
+    parser.add_argument("--seeds", type=int, help="seeds 1 to N [accuracy: 5, others: 3]")
     parser.add_argument("--quick", action="store_true", help="seed 1 alone; the pages stay as they are")
     parser.add_argument("--only", action="append", metavar="TEXT", default=[],
                         help="only rows whose name contains this, may be repeated; the pages stay as they are")
@@ -65,6 +67,16 @@ def measure_ablation(options, seeds, whole):
     print(text)
 
 
+def measure_objects(options, seeds, whole):
+    text = objects.measure(runs.Programs(options.bin, options.out), seeds)
+    if whole:
+        pages.replace_part(options.docs / "several-objects.md", "objects", text)
+    print(text)
+
+
+MEASURES = {"accuracy": measure_accuracy, "ablation": measure_ablation, "objects": measure_objects}
+
+
 def main(words):
     options = parse(words)
     is_accuracy = options.what == "accuracy"
@@ -74,7 +86,7 @@ def main(words):
     whole = not options.quick and not options.only
     begin = time.monotonic()
     try:
-        (measure_accuracy if is_accuracy else measure_ablation)(options, seeds, whole)
+        MEASURES[options.what](options, seeds, whole)
     except (RuntimeError, OSError) as error:
         print(f"bench {options.what}: {error}", file=sys.stderr)
         return 1

@@ -47,14 +47,14 @@ class Programs:
     def has(self, program):
         return (self.bin_dir / program).exists()
 
-    def call(self, program, *words, may_fail_with=()):
-        """Standard output of a program. A failure that is not expected ends the suite with its message."""
+    def call(self, program, *words, may_fail_with=(), stream="stdout"):
+        """What a program says on one stream. A failure that is not expected ends the suite with its message."""
         done = subprocess.run(
             [self.bin_dir / program, *map(str, words)], capture_output=True, text=True, check=False
         )
         if done.returncode not in (0, *may_fail_with):
             raise RuntimeError(f"{program} ended with {done.returncode}: {done.stderr.strip()}")
-        return None if done.returncode else done.stdout
+        return None if done.returncode else getattr(done, stream)
 
     def track(self, job):
         """Figures of a run; the trajectory, errors and mesh stay in the folder."""

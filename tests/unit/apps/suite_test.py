@@ -13,6 +13,7 @@ import ablation
 import accuracy
 import figures
 import main
+import objects
 import pages
 import runs
 import sequences
@@ -43,6 +44,18 @@ class Figures(unittest.TestCase):
         self.assertAlmostEqual(summary.mean("add_auc"), 50.0)
         self.assertIsNone(summary.mean("e_t"))
         self.assertEqual(summary.least("add_auc"), 0.0)
+
+
+class Objects(unittest.TestCase):
+    def test_names_are_those_of_the_simulated_camera(self):
+        self.assertEqual(objects.names_of(("box", "bottle", "box", "box")), ["box", "bottle", "box2", "box3"])
+
+    def test_times_are_those_of_all_objects_not_of_one(self):
+        said = ("disflow_track: box: 9 frames\n  time per frame: median 1.00 ms, 99 % below 2.00 ms\n"
+                "disflow_track: all 2 objects, by 1 threads: time per frame: median 3.50 ms, 99 % below 4.25 ms\n")
+        self.assertEqual(objects.read_times(said), (3.5, 4.25))
+        with self.assertRaises(RuntimeError):
+            objects.read_times("disflow_track: box: 9 frames")
 
 
 class Table(unittest.TestCase):
