@@ -13,9 +13,8 @@
 #include "disflow/posix/mask_source.h"
 #include "disflow/surface_extractor.h"
 #include "exit_status.h"
-#include "object_list.h"
 #include "sensor_choice.h"
-#include "settings.h"
+#include "setting_sources.h"
 
 namespace disflow::apps {
 namespace {
@@ -49,17 +48,6 @@ const std::map<std::string, hal::mavlink::MavFrame> kWorlds = {
     {"enu", hal::mavlink::MavFrame::kLocalEnu},
     {"frd", hal::mavlink::MavFrame::kLocalFrd},
     {"flu", hal::mavlink::MavFrame::kLocalFlu}};
-
-struct SettingSources {
-  std::string file;
-  std::vector<std::string> assignments;
-  // Short forms of settings.
-  std::vector<int> roi_px;
-  std::vector<float> range_m;
-  std::vector<int> seed_px;
-  std::vector<std::string> objects;
-  CommonObjectOptions common;
-};
 
 void AddInput(CLI::App& app, Options& options, SettingSources& settings) {
   app.add_option("--sensor", options.sensor, "Where depth images come from, see below")
@@ -198,79 +186,6 @@ void AddOutput(CLI::App& app, Options& options, CommonObjectOptions& objects) {
   app.add_flag("--print-config", options.print_config, "Print all settings as TOML and end");
   app.add_flag("--print-settings-table", options.print_settings_table,
                "Print docs/settings.md and end");
-}
-
-bool MayStandInAFile(const std::string& option) {
-  constexpr std::array kOnlyTyped = {"--config",       "--help",         "--version",
-                                     "--list-sensors", "--print-config", "--print-settings-table"};
-  return std::find(kOnlyTyped.begin(), kOnlyTyped.end(), option) == kOnlyTyped.end();
-}
-
-/// Gives an option of a settings file to the command line's parser, unless it was typed.
-void ApplyRunSetting(CLI::App& app, const RunSetting& setting) {
-  CLI::Option* const option =
-      MayStandInAFile(setting.option) ? app.get_option_no_throw(setting.option) : nullptr;
-  if (option == nullptr) {
-    throw Failure(kWrongUsage, setting.where + "there is no option " + setting.option +
-                                   " that could stand in [run]; see disflow_track --help");
-  }
-  if (option->count() > 0) return;
-  // A flag that is off is one that was not given.
-  const bool is_flag = option->get_expected_max() == 0;
-  if (is_flag && setting.values == std::vector<std::string>{"false"}) return;
-  try {
-    for (const std::string& value : setting.values) option->add_result(value);
-    option->run_callback();
-  } catch (const CLI::Error& error) {
-    throw Failure(kWrongUsage, setting.where + error.what());
-  }
-}
-
-void ApplyShortForms(const SettingSources& settings, Config& config) {
-  const auto apply = [&config](const char* name, const auto& value) {
-    ApplySetting(std::string("segmenter.") + name + "=" + std::to_string(value), config);
-  };
-  if (!settings.roi_px.empty()) {
-    apply("roi_x_px", settings.roi_px[0]);
-    apply("roi_y_px", settings.roi_px[1]);
-    apply("roi_width_px", settings.roi_px[2]);
-    apply("roi_height_px", settings.roi_px[3]);
-  }
-  if (!settings.range_m.empty()) {
-    apply("min_range_m", settings.range_m[0]);
-    apply("max_range_m", settings.range_m[1]);
-  }
-  if (!settings.seed_px.empty()) {
-    apply("seed_u_px", settings.seed_px[0]);
-    apply("seed_v_px", settings.seed_px[1]);
-  }
-}
-
-/// What was typed wins over what the file says.
-void ApplyTyped(const SettingSources& settings, Config& config) {
-  ApplyShortForms(settings, config);
-  for (const std::string& assignment : settings.assignments) ApplySetting(assignment, config);
-}
-
-/// The file, then the short forms, then --set.
-void ReadSettings(CLI::App& app, SettingSources& settings, Options& options) {
-  SettingsFile file;
-  if (!settings.file.empty()) {
-    file = LoadSettings(settings.file, options.config);
-    for (const RunSetting& setting : file.run) ApplyRunSetting(app, setting);
-  }
-  ApplyTyped(settings, options.config);
-  CheckSettings(options.config);
-  for (ObjectTable& object : file.objects) ApplyTyped(settings, object.config);
-  if (!settings.objects.empty()) file.objects.clear();
-  for (const std::string& object : settings.objects)
-    file.objects.push_back(ParseObject(object, options.config));
-  if (file.objects.size() > 1 && !settings.seed_px.empty()) {
-    throw Failure(kWrongUsage,
-                  "--seed names one object; with several, give each its own, e.g. --object "
-                  "name=box,seed=320:180");
-  }
-  options.objects = MakeObjects(file.objects, settings.common, options.config);
 }
 
 /// Takes the link that is no MAVLink out of the list of those that are.
