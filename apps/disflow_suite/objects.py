@@ -14,7 +14,8 @@ from figures import FIGURES, Summary
 # The nearest first; a name and its number in the masks follow from the place.
 SCENES = {
     "two": ("box", "bottle"),
-    "four": ("box", "bottle", "box", "bottle"),
+    "four, small in front": ("bottle", "bottle", "box", "box"),
+    "four, large in front": ("box", "bottle", "box", "bottle"),
 }
 NOISES = ("clean", "d415")
 THREADS = (1, 2)
