@@ -35,7 +35,7 @@ inline constexpr int kViewFormat = 1;
 /// Of a frame's record.
 inline constexpr std::uint16_t kFrameRecordBytes = 160;
 /// Arrows beyond these are left out evenly.
-inline constexpr std::size_t kShownFlowSamples = 400;
+inline constexpr std::size_t kShownFlowSamples = 300;
 
 /// @param json Its text, see view_texts.h.
 [[nodiscard]] ViewBytes EncodeText(ViewMessage kind, int object, std::string_view json);

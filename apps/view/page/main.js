@@ -8,13 +8,24 @@ import { Scene } from './scene.js';
 import { mapColour } from './theme.js';
 
 const byId = (id) => document.getElementById(id);
-const scene = new Scene(byId('view'));
+const scene = makeScene();
 const plots = new Plots(byId('plots'));
 
 let names = null; // What the server said of itself.
 let objects = []; // What is known of each: {frames, surface, flow, depth, status}.
 let chosen = 0;
 let link = 'lost';
+
+/** All but the scene works without WebGL too. */
+function makeScene() {
+  try {
+    return new Scene(byId('view'));
+  } catch {
+    byId('empty').textContent = 'This browser has no WebGL: the surface cannot be drawn, only saved.';
+    const nothing = () => {};
+    return { clear: nothing, addFrames: nothing, setSurface: nothing, setFlow: nothing, show: nothing, home: nothing, missing: true };
+  }
+}
 
 const connection = new Connection({
   message: (message) => (message.kind === 'hello' ? begin(message) : take(message)),
@@ -57,7 +68,7 @@ function show(message) {
     case 'surface':
       scene.setSurface(message);
       showRange(message);
-      byId('empty').hidden = message.indices.length > 0;
+      byId('empty').hidden = message.indices.length > 0 && !scene.missing;
       byId('save').disabled = message.indices.length === 0;
       byId('scene').dataset.triangles = message.indices.length / 3;
       break;

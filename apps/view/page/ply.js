@@ -18,7 +18,7 @@ export function plyOf(surface) {
   const bytes = new Uint8Array(header.length + vertices * kVertexBytes + faces * kFaceBytes);
   bytes.set(header);
   const view = new DataView(bytes.buffer);
-  const colours = coloursOf(surface);
+  const colours = coloursOf(surface, 'linear');
   for (let v = 0, at = header.length; v < vertices; v += 1, at += kVertexBytes) {
     for (let i = 0; i < 3; i += 1) {
       view.setFloat32(at + 4 * i, surface.positions[3 * v + i], true);

@@ -6,17 +6,27 @@ import { geometryOf } from './surface.js';
 import { cssColour, lineColours, onThemeChange } from './theme.js';
 
 const kTrailPoints = 1800;
-const kArrow_s = 0.12; // An arrow is as long as the way in this time.
+const kArrow_s = 0.08; // An arrow is as long as the way in this time.
 const kDelay_s = 0.15; // Poses come in bundles; drawn so much later they move evenly.
-const kFrame_s = 1 / 35; // Drawn no oftener.
+// Drawn no oftener: a processor that has to draw by itself shall not be busy with it alone.
+const kFrame_s = 1 / 35;
+const kFrameByProcessor_s = 1 / 8;
 const kSlow_s = 0.08;
 const kCoarsest = 0.4; // Pixels drawn per pixel of the screen.
 
+/** false: a program stands in for the graphics processor. */
+function hasGraphicsProcessor() {
+  return Boolean(document.createElement('canvas').getContext('webgl2', { failIfMajorPerformanceCaveat: true }));
+}
+
 export class Scene {
+  /** Throws if the browser has no WebGL. */
   constructor(canvas) {
     this.canvas = canvas;
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true });
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    const fast = hasGraphicsProcessor();
+    this.frame_s = fast ? kFrame_s : kFrameByProcessor_s;
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: fast });
+    this.renderer.setPixelRatio(fast ? Math.min(devicePixelRatio, 2) : 0.6);
     this.scene = new THREE.Scene();
     this.camera = new THREE.PerspectiveCamera(40, 1, 0.01, 30);
     this.controls = new OrbitControls(this.camera, canvas);
@@ -66,6 +76,10 @@ export class Scene {
     this.dots.frustumCulled = false;
     this.object.add(this.arrows, this.dots);
     this.trail = lines(kTrailPoints, THREE.Line);
+    this.trail.material.vertexColors = this.trail.material.transparent = true;
+    this.trail.geometry.setAttribute('color', new THREE.BufferAttribute(new Float32Array(4 * kTrailPoints).fill(1), 4));
+    this.arrows.material.transparent = true;
+    this.arrows.material.opacity = 0.7;
     this.sensor = lines(16);
     const d = 0.08;
     const corners = [[-1.1, -0.65], [1.1, -0.65], [1.1, 0.65], [-1.1, 0.65]].map(([x, y]) => [x * d * 0.6, y * d * 0.6, d]);
@@ -101,6 +115,7 @@ export class Scene {
       this.resetCounter = frame.resetCounter;
       this.#appendToTrail(frame.position);
     }
+    this.#fadeTrail();
     this.frames.push(...frames);
     if (this.frames.length > 120) this.frames.splice(0, this.frames.length - 120);
     this.object.visible = true;
@@ -116,6 +131,13 @@ export class Scene {
     this.trailCount += 1;
     attribute.needsUpdate = true;
     this.trail.geometry.setDrawRange(0, this.trailCount);
+  }
+
+  /** What is long past is faint. */
+  #fadeTrail() {
+    const { color } = this.trail.geometry.attributes;
+    for (let i = 0; i < this.trailCount; i += 1) color.setW(i, 0.08 + 0.92 * (1 - (this.trailCount - i) / kTrailPoints) ** 4);
+    color.needsUpdate = true;
   }
 
   setSurface(surface) {
@@ -198,7 +220,7 @@ export class Scene {
     const gap_s = now_s - (this.called_s ?? now_s);
     this.called_s = now_s;
     this.#adaptTo(gap_s);
-    if (now_s - this.drawn_s < kFrame_s) return;
+    if (now_s - this.drawn_s < this.frame_s) return;
     const elapsed_s = Math.min(now_s - (this.drawn_s ?? now_s), 0.2);
     this.drawn_s = now_s;
     const before = this.object.position.clone();
