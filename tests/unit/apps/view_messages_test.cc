@@ -75,11 +75,12 @@ TEST(ViewMessages, Surface_KeepsPlacesToATenThousandthOfItsSize) {
   EXPECT_EQ(At<double>(bytes, 24), 2.0);
   const float low_m = At<float>(bytes, 32);
   const float size_m = At<float>(bytes, 44);
-  const float x_m = low_m + size_m * static_cast<float>(At<std::uint16_t>(bytes, 56 + 16)) / 65535.0F;
+  const float x_m =
+      low_m + size_m * static_cast<float>(At<std::uint16_t>(bytes, 56 + 16)) / 65535.0F;
   EXPECT_NEAR(x_m, 0.03F, 1e-5F);
   const float largest_m = At<float>(bytes, 20);
-  EXPECT_NEAR(largest_m * static_cast<float>(At<std::uint16_t>(bytes, 56 + 8 + 6)) / 65535.0F, 0.002F,
-              1e-6F);
+  EXPECT_NEAR(largest_m * static_cast<float>(At<std::uint16_t>(bytes, 56 + 8 + 6)) / 65535.0F,
+              0.002F, 1e-6F);
   EXPECT_EQ(At<std::int8_t>(bytes, 56 + 24 + 8), -127);
   EXPECT_EQ(At<std::uint16_t>(bytes, 56 + 36 + 4), 2);
 }

@@ -18,7 +18,8 @@ TEST(WebAddress, PortAlone_IsThisMachinesOnly) {
 }
 
 TEST(WebAddress, AddressesThatOthersReach_AreNoLoopback) {
-  for (const char* text : {"0.0.0.0:80", "192.168.1.5:80", "128.0.0.1:80", "[::]:80", "[fe80::1]:80"}) {
+  for (const char* text :
+       {"0.0.0.0:80", "192.168.1.5:80", "128.0.0.1:80", "[::]:80", "[fe80::1]:80"}) {
     WebAddress address;
     ASSERT_TRUE(ParseWebAddress(text, address).ok()) << text;
     EXPECT_FALSE(address.is_loopback) << text;
@@ -30,8 +31,9 @@ TEST(WebAddress, AddressesThatOthersReach_AreNoLoopback) {
 }
 
 TEST(WebAddress, Rubbish_IsRefusedWithItsText) {
-  for (const char* text : {"", ":", "x", ":x", ":-1", ":65536", ":80x", "robot:80", "1.2.3:80", "1.2.3.4",
-                           "[::1:80", "::1:80", "[]:80", "1.2.3.4:80:90", "http://1.2.3.4:80", ": 80"}) {
+  for (const char* text :
+       {"", ":", "x", ":x", ":-1", ":65536", ":80x", "robot:80", "1.2.3:80", "1.2.3.4", "[::1:80",
+        "::1:80", "[]:80", "1.2.3.4:80:90", "http://1.2.3.4:80", ": 80"}) {
     WebAddress address;
     const hal::Fault fault = ParseWebAddress(text, address);
     EXPECT_EQ(fault.status, Status::kInvalidUri) << text;
