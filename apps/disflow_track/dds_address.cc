@@ -56,7 +56,7 @@ class Reader {
       return;
     }
     Refuse("unknown option " + Shown(key) +
-           "; there are domain, name, interface, peer, camera, world and ros");
+           "; there are domain, name, interface, peer, camera, world, mask and ros");
   }
 
   void ReadDomain(std::string_view value) {
@@ -90,6 +90,12 @@ class Reader {
   }
   void ReadCamera(std::string_view value) { ReadFrame("camera", value, address_.camera_frame); }
   void ReadWorld(std::string_view value) { ReadFrame("world", value, address_.world_frame); }
+  void ReadMask(std::string_view value) {
+    if (!IsText(value, "_/") || value.front() != '/' || value.back() == '/') {
+      Refuse("mask=" + Shown(value) + " is no topic, e.g. /segmentation/mask");
+    }
+    address_.mask_topic = value;
+  }
   void ReadFrame(const char* key, std::string_view value, std::string& frame) {
     if (!IsText(value, "_-/.") || value.front() == '/') {
       Refuse(std::string(key) + "=" + Shown(value) + " is no tf frame, e.g. camera_optical_frame");
@@ -119,12 +125,13 @@ class Reader {
     std::string_view key;
     void (Reader::*read)(std::string_view value);
   };
-  static constexpr std::array<Option, 7> kOptions = {{{"domain", &Reader::ReadDomain},
+  static constexpr std::array<Option, 8> kOptions = {{{"domain", &Reader::ReadDomain},
                                                       {"name", &Reader::ReadName},
                                                       {"interface", &Reader::ReadInterface},
                                                       {"peer", &Reader::ReadPeers},
                                                       {"camera", &Reader::ReadCamera},
                                                       {"world", &Reader::ReadWorld},
+                                                      {"mask", &Reader::ReadMask},
                                                       {"ros", &Reader::ReadRos}}};
 
   const std::string& uri_;

@@ -15,6 +15,7 @@ struct DdsAddress {
   std::string interface;           ///< Network interface or its address; empty: any.
   std::vector<std::string> peers;  ///< Hosts to look for beside multicast.
   std::string camera_frame = "camera_optical_frame";
+  std::string mask_topic;    ///< Empty: no masks.
   std::string world_frame;   ///< Empty: nobody moves the camera.
   bool before_iron = false;  ///< ROS 2 Humble or older listens.
 };

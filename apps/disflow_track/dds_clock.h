@@ -23,6 +23,11 @@ class DdsClock {
     return stamp_ns + offset_ns_;
   }
 
+  /// The way back, for stamps of others. Only if known().
+  [[nodiscard]] StampNs FromRos(std::int64_t ros_ns) const noexcept { return ros_ns - offset_ns_; }
+  /// @return false: no stamp has come yet that would tell.
+  [[nodiscard]] bool known() const noexcept { return known_; }
+
  private:
   static std::int64_t Now(clockid_t clock) noexcept {
     timespec now{};

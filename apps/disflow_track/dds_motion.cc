@@ -52,6 +52,10 @@ ros::Time RosTime(std::int64_t ros_ns) noexcept {
           static_cast<std::uint32_t>(ros_ns % kSecond_ns)};
 }
 
+std::int64_t RosNanoseconds(const ros::Time& time) noexcept {
+  return std::int64_t{time.sec} * kSecond_ns + std::int64_t{time.nanosec};
+}
+
 ros::Header RosHeader(std::int64_t ros_ns, const std::string& frame) noexcept {
   return {RosTime(ros_ns), posix::Lend(frame)};
 }

@@ -4,9 +4,11 @@
 #include <atomic>
 #include <chrono>
 #include <deque>
+#include <optional>
 #include <thread>
 
 #include "dds_address.h"
+#include "dds_inputs.h"
 #include "dds_object.h"
 #include "disflow/posix/monotonic_clock.h"
 #include "exit_status.h"
@@ -16,7 +18,8 @@ namespace disflow::apps {
 /// The node, its objects and the thread that serves them.
 class DdsPublisher {
  public:
-  DdsPublisher(const std::string& uri, std::span<ObjectChannel* const> channels, bool live)
+  DdsPublisher(const std::string& uri, std::span<ObjectChannel* const> channels, bool live,
+               SideInputs& inputs)
       : uri_(uri), clock_(live) {
     const DdsAddress address = ParseDdsAddress(uri);
     posix::RosNode::Options options;
@@ -28,6 +31,7 @@ class DdsPublisher {
     for (ObjectChannel* const channel : channels) {
       objects_.emplace_back(address, *channel, signal_, clock_, node_, transforms_, counters_);
     }
+    inputs_.emplace(address, node_, inputs.pose_mailbox(), inputs.mask_mailbox());
     Require(node_.Announce());
     thread_ = std::thread([this] { Serve(); });
   }
@@ -74,6 +78,7 @@ class DdsPublisher {
     while (!stop_) {
       // Also without news: requests do not raise the signal.
       (void)signal_.WaitFor(kPatience_ns);
+      inputs_->Turn(clock_);
       for (DdsObject& object : objects_) object.Turn(steady_.NowNs());
     }
     for (DdsObject& object : objects_) object.Finish(steady_.NowNs());
@@ -88,13 +93,14 @@ class DdsPublisher {
   DdsObject::TransformPublisher transforms_;
   DdsCounters counters_;
   std::deque<DdsObject> objects_;
+  std::optional<DdsInputs> inputs_;
   std::atomic<bool> stop_ = false;
   std::thread thread_;
 };
 
 DdsOutput::DdsOutput(const std::string& uri, std::span<ObjectChannel* const> objects, bool live,
-                     Console&) {
-  if (!uri.empty()) publisher_ = std::make_unique<DdsPublisher>(uri, objects, live);
+                     SideInputs& inputs) {
+  if (!uri.empty()) publisher_ = std::make_unique<DdsPublisher>(uri, objects, live, inputs);
 }
 
 DdsOutput::~DdsOutput() = default;

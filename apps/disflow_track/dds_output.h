@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "console.h"
 #include "object_channel.h"
+#include "side_inputs.h"
 
 namespace disflow::apps {
 
@@ -19,10 +19,11 @@ class DdsOutput {
   /// @param uri See ParseDdsAddress(); empty: nothing is sent.
   /// @param objects All outlive this.
   /// @param live Stamps are of this machine's CLOCK_MONOTONIC.
+  /// @param inputs Get what is heard from ROS.
   /// @throws Failure kWrongUsage for a wrong address or if this program was built without DDS,
   /// kOutputFailed if DDS cannot be started.
   DdsOutput(const std::string& uri, std::span<ObjectChannel* const> objects, bool live,
-            Console& console);
+            SideInputs& inputs);
   DdsOutput(const DdsOutput&) = delete;
   DdsOutput& operator=(const DdsOutput&) = delete;
   ~DdsOutput();

@@ -10,7 +10,7 @@ namespace disflow::apps {
 
 class DdsPublisher {};
 
-DdsOutput::DdsOutput(const std::string& uri, std::span<ObjectChannel* const>, bool, Console&) {
+DdsOutput::DdsOutput(const std::string& uri, std::span<ObjectChannel* const>, bool, SideInputs&) {
   if (uri.empty()) return;
   (void)ParseDdsAddress(uri);
   throw Failure(kWrongUsage, "link '" + uri +

@@ -29,7 +29,7 @@ constexpr const char* kLinksAndStatus =
     "  serial:///dev/NAME[?baud=RATE]\n"
     "or ROS 2 (docs/ros2.md):\n"
     "  dds:domain=N[&name=NODE][&interface=NAME][&peer=HOST,…][&camera=FRAME][&world=FRAME]\n"
-    "      [&ros=humble|iron]\n"
+    "      [&mask=TOPIC][&ros=humble|iron]\n"
     "\n"
     "Every input frame gives one row of the CSV; its column status is 'ok' or says why the pose "
     "is\n"
@@ -197,7 +197,14 @@ void SplitLinks(Options& options) {
   }
   if (dds == options.links.end()) return;
   options.dds_link = *dds;
-  (void)ParseDdsAddress(options.dds_link);
+  const DdsAddress address = ParseDdsAddress(options.dds_link);
+  if (!address.mask_topic.empty() && !options.mask_stream.empty()) {
+    throw Failure(kWrongUsage, "masks come from --mask-stream or from --link dds:mask=, not both");
+  }
+  if (!address.world_frame.empty() && options.camera_pose.system_id != 0) {
+    throw Failure(kWrongUsage,
+                  "the camera's pose comes by --camera-pose or by --link dds:world=, not both");
+  }
   options.links.erase(dds);
 }
 

@@ -35,6 +35,10 @@ class Outputs {
 
   /// Takes what has come in on the links.
   void Receive(std::int64_t now_ns) noexcept { telemetry_.Receive(now_ns); }
+  /// Answers what was asked on the links, after a frame.
+  void Answer(const TrackedObjects& objects, std::span<const FrameResult> results) noexcept {
+    telemetry_.Answer(objects, results);
+  }
   void KeepAlive(std::int64_t now_ns) noexcept { telemetry_.KeepAlive(now_ns); }
 
   /// Closes all. @return false if something that was asked for is not complete.

@@ -60,7 +60,7 @@ class TrackingRun {
         outputs_(options, console_, inputs_.camera_poses()),
         source_(*sensor_.get(), clock_, options.rate, options.frames, console_),
         objects_(MakeObjects(options)),
-        dds_(options.dds_link, ChannelsOf(objects_), info_.live, console_),
+        dds_(options.dds_link, ChannelsOf(objects_), info_.live, inputs_),
         view_(options.view, ChannelsOf(objects_), console_),
         results_(options.objects.size()),
         reports_(options.objects.size()) {}
@@ -168,6 +168,7 @@ class TrackingRun {
     };
     pool.ForEach(objects_.size(), track);
     all_objects_.Add(clock_.NowNs() - begin_ns);
+    outputs_.Answer(objects_, results_);
     outputs_.WriteFlow(objects_, results_);
   }
 

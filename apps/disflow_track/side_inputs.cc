@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "dds_address.h"
+
 namespace disflow::apps {
 namespace {
 
@@ -37,6 +39,20 @@ SideInputs::SideInputs(const Options& options, const hal::SensorInfo& sensor) {
                                    std::llround(options.mask_max_age_s * 1e9));
   }
   if (options.camera_pose.system_id != 0) poses_.emplace(PoseSettings(options.camera_pose));
+  if (options.dds_link.empty()) return;
+  const DdsAddress address = ParseDdsAddress(options.dds_link);
+  if (!address.mask_topic.empty()) {
+    auto mailbox =
+        std::make_unique<MaskMailbox>(address.mask_topic, sensor.width_px, sensor.height_px,
+                                      std::llround(options.mask_max_age_s * 1e9));
+    mask_mailbox_ = mailbox.get();
+    masks_ = std::move(mailbox);
+  }
+  if (!address.world_frame.empty()) {
+    // tf leads to the optical frame itself.
+    poses_.emplace(hal::CameraPoseHistory::Settings{});
+    pose_mailbox_.emplace();
+  }
 }
 
 void SideInputs::Attach(DepthFrame& frame, Console& console) noexcept {
@@ -53,6 +69,7 @@ void SideInputs::Attach(DepthFrame& frame, Console& console) noexcept {
       mask_status_ = status;
     }
   }
+  if (pose_mailbox_) pose_mailbox_->MoveTo(*poses_);
   if (poses_) frame.has_T_wc = poses_->At(frame.stamp_ns, frame.T_wc) == Status::kOk;
 }
 

@@ -11,6 +11,7 @@
 #include "disflow/hal/depth_sensor.h"
 #include "disflow/posix/mask_source.h"
 #include "options.h"
+#include "side_mailbox.h"
 
 namespace disflow::apps {
 
@@ -21,8 +22,13 @@ class SideInputs {
 
   /// Where the links put the camera's poses; null if nobody moves the camera.
   [[nodiscard]] hal::CameraPoseHistory* camera_poses() noexcept {
-    return poses_ ? &*poses_ : nullptr;
+    return poses_ && !pose_mailbox_ ? &*poses_ : nullptr;
   }
+  /// Where another thread puts the camera's poses or masks; null if they come by another way.
+  [[nodiscard]] PoseMailbox* pose_mailbox() noexcept {
+    return pose_mailbox_ ? &*pose_mailbox_ : nullptr;
+  }
+  [[nodiscard]] MaskMailbox* mask_mailbox() noexcept { return mask_mailbox_; }
   /// Adds to the frame what belongs to it. What is missing is counted, and the frame goes without.
   void Attach(DepthFrame& frame, Console& console) noexcept;
 
@@ -32,7 +38,9 @@ class SideInputs {
  private:
   std::unique_ptr<posix::MaskSource> masks_;  ///< Null: none are wanted.
   Status mask_status_ = Status::kOk;          ///< What was said last.
+  MaskMailbox* mask_mailbox_ = nullptr;       ///< The same as masks_, if it is one.
   std::optional<hal::CameraPoseHistory> poses_;
+  std::optional<PoseMailbox> pose_mailbox_;
 };
 
 }  // namespace disflow::apps

@@ -34,7 +34,8 @@ TelemetryOutput::TelemetryOutput(const Options& options, hal::CameraPoseHistory*
     : console_(console) {
   for (const ObjectOptions& object : options.objects) {
     components_.push_back(
-        {.encoder = hal::mavlink::TelemetryEncoder(EncoderOptions(options, object.index))});
+        {.id = static_cast<std::uint8_t>(hal::mavlink::kFirstComponentId + object.index),
+         .encoder = hal::mavlink::TelemetryEncoder(EncoderOptions(options, object.index))});
   }
   for (const std::string& uri : options.links) {
     Line& line = lines_.emplace_back();
@@ -77,7 +78,7 @@ void TelemetryOutput::Send(std::span<const FrameResult> results, std::int64_t ag
 
 void TelemetryOutput::Receive(std::int64_t now_ns) noexcept {
   for (Line& line : lines_) {
-    if (line.camera_pose && !line.lost) ReceiveOn(line, now_ns);
+    if (!line.lost) ReceiveOn(line, now_ns);
   }
 }
 
@@ -87,13 +88,35 @@ void TelemetryOutput::ReceiveOn(Line& line, std::int64_t now_ns) noexcept {
     const Expected<std::size_t> received = line.link.get()->Receive(piece);
     // A device that is gone shows when something is sent, and that is soon.
     if (!received.ok() || received.value == 0) break;
-    line.camera_pose->Receive(std::span(piece).first(received.value), now_ns);
+    const auto bytes = std::span(piece).first(received.value);
+    line.queries.Receive(bytes);
+    if (line.camera_pose) line.camera_pose->Receive(bytes, now_ns);
   }
-  if (line.camera_pose->refused_frame() == 0 || line.frame_refusal_said) return;
+  if (!line.camera_pose || line.camera_pose->refused_frame() == 0 || line.frame_refusal_said)
+    return;
   line.frame_refusal_said = true;
   console_.Say(std::string(line.link.get()->name()) + ": ODOMETRY with frame_id " +
                std::to_string(line.camera_pose->refused_frame()) +
                " is not in the frame that --camera-world names and is left out");
+}
+
+void TelemetryOutput::Answer(const TrackedObjects& objects,
+                             std::span<const FrameResult> results) noexcept {
+  for (Line& line : lines_) {
+    for (const hal::mavlink::DisflowQuery& query : line.queries.waiting()) {
+      for (std::size_t i = 0; i < components_.size(); ++i) {
+        const bool is_first = query.target_component == 0 && i == 0;
+        if (!is_first && query.target_component != components_[i].id) continue;
+        const auto answer =
+            hal::mavlink::AnswerQuery(query, results[i].estimate.stamp_ns,
+                                      [&](const Vec3& x_m) { return objects[i]->Query(x_m); });
+        // The buffer holds every message, so encoding cannot fail.
+        const auto size = components_[i].encoder.EncodeMessage(answer, buffer_);
+        SendOn(line, std::span(buffer_).first(size.value));
+      }
+    }
+    line.queries.Clear();
+  }
 }
 
 void TelemetryOutput::KeepAlive(std::int64_t now_ns) noexcept {

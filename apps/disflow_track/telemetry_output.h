@@ -11,10 +11,12 @@
 
 #include "console.h"
 #include "disflow/hal/mavlink/camera_pose_input.h"
+#include "disflow/hal/mavlink/distance_query_input.h"
 #include "disflow/hal/mavlink/telemetry.h"
 #include "disflow/posix/link.h"
 #include "frame_result.h"
 #include "options.h"
+#include "tracked_object.h"
 
 namespace disflow::apps {
 
@@ -39,6 +41,9 @@ class TelemetryOutput {
             std::int64_t now_ns) noexcept;
   /// Takes what has come in, a bounded number of bytes.
   void Receive(std::int64_t now_ns) noexcept;
+  /// Answers the questions of those who listen, a bounded number per frame.
+  /// @param objects In the order of Options::objects.
+  void Answer(const TrackedObjects& objects, std::span<const FrameResult> results) noexcept;
   /// HEARTBEAT if one is due although no frame comes.
   void KeepAlive(std::int64_t now_ns) noexcept;
 
@@ -54,10 +59,12 @@ class TelemetryOutput {
     std::int64_t retry_ns = 0;
     std::optional<hal::mavlink::CameraPoseInput> camera_pose;
     bool frame_refusal_said = false;
+    hal::mavlink::DistanceQueryInput queries;
   };
 
   /// An object as a MAVLink component.
   struct Component {
+    std::uint8_t id;
     hal::mavlink::TelemetryEncoder encoder;
     TrackingState state = TrackingState::kInitialising;
   };

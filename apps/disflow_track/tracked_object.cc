@@ -28,6 +28,12 @@ class TrackedObjectOf final : public TrackedObject {
     return disflow::StreamFlow(tracker_, estimate, sink);
   }
 
+  Expected<DistanceQuery> DoQuery(const Vec3& x_m) noexcept override {
+    const FieldConfig& field = tracker_.config().field;
+    const float support_radius_m = DrawingOptions(field, 0.0F).support_radius_m;
+    return DistanceQuerier<Limits>(tracker_.field(), workspace_, support_radius_m).Query(x_m);
+  }
+
   void DoExtract(const SurfaceOptions& options, SurfaceMesh& mesh) const override {
     static SurfaceWorkspace<Limits> workspace;  // too large for a stack
     // An empty model gives an empty mesh, which is said where it is written.
@@ -35,6 +41,7 @@ class TrackedObjectOf final : public TrackedObject {
   }
 
   Tracker<Limits> tracker_;
+  typename DistanceQuerier<Limits>::Workspace workspace_;
 };
 
 }  // namespace

@@ -36,6 +36,8 @@ class TrackedObject {
   int StreamFlow(const Estimate& estimate, FlowSink& sink) const noexcept {
     return DoStreamFlow(estimate, sink);
   }
+  /// The model at a point of the object frame; see DistanceQuerier.
+  [[nodiscard]] Expected<DistanceQuery> Query(const Vec3& x_m) noexcept { return DoQuery(x_m); }
   /// @param resolution_m 0: as fine as the model's own detail. Nothing known gives an empty mesh.
   void ExtractMesh(double resolution_m, SurfaceMesh& mesh) const;
 
@@ -47,6 +49,7 @@ class TrackedObject {
   virtual void DoTrack(const DepthFrame& frame, StageClock clock, FrameResult& result) noexcept = 0;
   virtual void DoShow(const FrameResult& result, const DepthFrame* frame) = 0;
   virtual int DoStreamFlow(const Estimate& estimate, FlowSink& sink) const noexcept = 0;
+  virtual Expected<DistanceQuery> DoQuery(const Vec3& x_m) noexcept = 0;
   virtual void DoExtract(const SurfaceOptions& options, SurfaceMesh& mesh) const = 0;
 
   const ObjectOptions& options_;

@@ -19,6 +19,8 @@ constexpr std::array kKnownMessages{
     KnownMessage{DisflowStatus::kId, CrcExtra<DisflowStatus>()},
     KnownMessage{DisflowReady::kId, CrcExtra<DisflowReady>()},
     KnownMessage{DisflowTiming::kId, CrcExtra<DisflowTiming>()},
+    KnownMessage{DisflowQuery::kId, CrcExtra<DisflowQuery>()},
+    KnownMessage{DisflowField::kId, CrcExtra<DisflowField>()},
 };
 
 }  // namespace

@@ -7,8 +7,12 @@
 #include <unistd.h>
 
 #include <array>
+#include <chrono>
+#include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <map>
+#include <thread>
 
 #include "child_process.h"
 #include "disflow/hal/mavlink/frame_decoder.h"
@@ -43,7 +47,9 @@ class Receiver {
   void Drain(Use&& use) {
     std::array<std::byte, 2048> buffer;
     for (;;) {
-      const ssize_t size = ::recv(socket_.get(), buffer.data(), buffer.size(), MSG_DONTWAIT);
+      socklen_t sender_size = sizeof(sender_);
+      const ssize_t size = ::recvfrom(socket_.get(), buffer.data(), buffer.size(), MSG_DONTWAIT,
+                                      reinterpret_cast<sockaddr*>(&sender_), &sender_size);
       if (size <= 0) return;
       std::span<const std::byte> bytes(buffer.data(), static_cast<std::size_t>(size));
       mavlink::FrameView frame;
@@ -53,15 +59,67 @@ class Receiver {
       }
     }
   }
+  /// To whoever sent last.
+  template <class Message>
+  void Send(const Message& message) {
+    std::array<std::byte, mavlink::kMaxFrameSize> buffer;
+    const auto size =
+        mavlink::EncodeFrame(message, {.sequence = 0, .system_id = 9, .component_id = 1}, buffer);
+    EXPECT_GT(::sendto(socket_.get(), buffer.data(), size.value, 0,
+                       reinterpret_cast<const sockaddr*>(&sender_), sizeof(sender_)),
+              0);
+  }
   [[nodiscard]] const mavlink::DecoderCounters& counters() const { return decoder_.counters(); }
 
  private:
   posix::FileDescriptor socket_;
   std::uint16_t port_ = 0;
+  sockaddr_in sender_{};
   mavlink::FrameDecoder decoder_;
 };
 
 class LinkTest : public ScratchFolderTest {};
+
+TEST_F(LinkTest, QuestionAboutTheDistance_IsAnsweredOverUdp) {
+  Receiver receiver;
+  Outcome outcome;
+  std::thread run([&] {
+    outcome = RunTrack({"--sensor", "sim:bottle?frames=90", "--rate", "realtime", "--link",
+                        "udp://127.0.0.1:" + receiver.port()},
+                       scratch());
+  });
+  mavlink::DisflowQuery query;
+  query.request = 4711;
+  query.target_system = 190;
+  query.target_component = 25;
+  query.count = 3;
+  // Towards the camera, step by step; and nowhere.
+  query.z = {-0.2F, -0.3F, std::numeric_limits<float>::quiet_NaN()};
+  mavlink::DisflowField field;
+  bool answered = false;
+  // Until the run has ended; asked again with every frame.
+  for (int i = 0; i < 1000 && !answered; ++i) {
+    bool may_ask = false;
+    receiver.Drain([&](const mavlink::FrameView& frame) {
+      may_ask = may_ask || frame.message_id == mavlink::Odometry::kId;
+      if (frame.message_id != mavlink::DisflowField::kId) return;
+      answered = mavlink::DecodePayload(frame, field) == Status::kOk;
+    });
+    if (may_ask && !answered) receiver.Send(query);
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  run.join();
+  ASSERT_EQ(outcome.exit_status, 0) << outcome.err;
+  ASSERT_TRUE(answered);
+  EXPECT_EQ(field.request, 4711U);
+  EXPECT_EQ(field.count, 3);
+  EXPECT_EQ(field.status, 0);
+  EXPECT_GT(field.distance[0], 0.0F);
+  EXPECT_NEAR(field.distance[1] - field.distance[0], 0.1F, 0.02F);
+  EXPECT_NEAR(field.gradient_z[0], -1.0F, 0.1F);
+  EXPECT_GT(field.variance[0], 0.0F);
+  EXPECT_TRUE(std::isnan(field.distance[2]));
+}
 
 TEST_F(LinkTest, UdpReceiver_GetsPoseAndStatusOfEveryFrameAndHeartbeats) {
   constexpr int kFrames = 45;  // 1.5 s

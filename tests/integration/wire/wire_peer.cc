@@ -114,6 +114,8 @@ std::size_t Encode(const json& vector, std::span<std::byte> out) {
   if (name == DisflowStatus::kName) return EncodeFromJson<DisflowStatus>(vector, out);
   if (name == DisflowReady::kName) return EncodeFromJson<DisflowReady>(vector, out);
   if (name == DisflowTiming::kName) return EncodeFromJson<DisflowTiming>(vector, out);
+  if (name == DisflowQuery::kName) return EncodeFromJson<DisflowQuery>(vector, out);
+  if (name == DisflowField::kName) return EncodeFromJson<DisflowField>(vector, out);
   Fail("unknown message " + name);
 }
 
@@ -168,7 +170,8 @@ int Receive(hal::ByteLink& link, std::uint32_t count) {
         // Whichever it is; the decoder knows no other.
         (void)(PrintIf<Heartbeat>(frame) || PrintIf<Odometry>(frame) ||
                PrintIf<DisflowStatus>(frame) || PrintIf<DisflowReady>(frame) ||
-               PrintIf<DisflowTiming>(frame));
+               PrintIf<DisflowTiming>(frame) || PrintIf<DisflowQuery>(frame) ||
+               PrintIf<DisflowField>(frame));
       }
     }
   }

@@ -7,6 +7,7 @@ namespace {
 std::int32_t DepthOf(RosQos profile) noexcept {
   switch (profile) {
     case RosQos::kReliable:
+    case RosQos::kLatchedMany:
       return 100;
     case RosQos::kLatched:
       return 1;
@@ -26,7 +27,7 @@ Qos MakeQos(RosQos profile, const std::string& user_data) {
   dds_qset_reliability(qos.get(),
                        best_effort ? DDS_RELIABILITY_BEST_EFFORT : DDS_RELIABILITY_RELIABLE,
                        DDS_MSECS(100));
-  if (profile == RosQos::kLatched) {
+  if (profile == RosQos::kLatched || profile == RosQos::kLatchedMany) {
     dds_qset_durability(qos.get(), DDS_DURABILITY_TRANSIENT_LOCAL);
     dds_qset_durability_service(qos.get(), 0, DDS_HISTORY_KEEP_LAST, depth, DDS_LENGTH_UNLIMITED,
                                 DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);

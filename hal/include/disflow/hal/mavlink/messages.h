@@ -224,4 +224,63 @@ struct DisflowTiming {
   }
 };
 
+/// DISFLOW_QUERY (#13721363 = 0xD15F13), private: asks for the distance field at points of the
+/// object frame. Answered by DISFLOW_FIELD.
+struct DisflowQuery {
+  static constexpr std::uint32_t kId = 0xD15F13;
+  static constexpr std::string_view kName = "DISFLOW_QUERY";
+  static constexpr std::size_t kPoints = 10;
+
+  std::uint32_t request = 0;  ///< Comes back with the answer.
+  std::array<float, kPoints> x{};
+  std::array<float, kPoints> y{};
+  std::array<float, kPoints> z{};
+  std::uint8_t target_system = 0;
+  std::uint8_t target_component = 0;  ///< Of the object; 0 = the first.
+  std::uint8_t count = 0;             ///< Points used, 1 to kPoints.
+
+  template <class Self, class Visitor>
+  static constexpr void VisitFields(Self& message, Visitor& field) {
+    field("request", message.request);
+    field("x", message.x);
+    field("y", message.y);
+    field("z", message.z);
+    field("target_system", message.target_system);
+    field("target_component", message.target_component);
+    field("count", message.count);
+  }
+};
+
+/// DISFLOW_FIELD (#13721364 = 0xD15F14), private: the answer to a DISFLOW_QUERY, point by point.
+struct DisflowField {
+  static constexpr std::uint32_t kId = 0xD15F14;
+  static constexpr std::string_view kName = "DISFLOW_FIELD";
+  static constexpr std::size_t kPoints = DisflowQuery::kPoints;
+
+  std::uint64_t time_usec = 0;  ///< Capture time of the frame that the model has learnt from.
+  std::uint32_t request = 0;
+  std::array<float, kPoints> distance{};  ///< m; NaN: no answer for this point.
+  std::array<float, kPoints> gradient_x{};
+  std::array<float, kPoints> gradient_y{};
+  std::array<float, kPoints> gradient_z{};
+  std::array<float, kPoints> variance{};  ///< Of the distance, m^2.
+  std::uint16_t in_bounds = 0;            ///< Bit i: surface was seen near point i.
+  std::uint8_t count = 0;
+  std::uint8_t status = 0;  ///< disflow::Status; kNotInitialised: there is no model.
+
+  template <class Self, class Visitor>
+  static constexpr void VisitFields(Self& message, Visitor& field) {
+    field("time_usec", message.time_usec);
+    field("request", message.request);
+    field("distance", message.distance);
+    field("gradient_x", message.gradient_x);
+    field("gradient_y", message.gradient_y);
+    field("gradient_z", message.gradient_z);
+    field("variance", message.variance);
+    field("in_bounds", message.in_bounds);
+    field("count", message.count);
+    field("status", message.status);
+  }
+};
+
 }  // namespace disflow::hal::mavlink

@@ -17,9 +17,10 @@
 namespace disflow::posix {
 
 enum class RosQos {
-  kReliable,    ///< The last hundred are sent again until they arrive.
-  kLatched,     ///< As kReliable, the last one; also to those who come later.
-  kSensorData,  ///< Best effort: what is lost is lost.
+  kReliable,     ///< The last hundred are sent again until they arrive.
+  kLatched,      ///< As kReliable, the last one; also to those who come later.
+  kLatchedMany,  ///< As kReliable, also to those who come later.
+  kSensorData,   ///< Best effort: what is lost is lost.
 };
 
 [[nodiscard]] inline bool HasListeners(dds_entity_t writer) noexcept {

@@ -1,21 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One run of disflow_track --link dds:, seen by an independent DDS participant (Fast DDS) and decoded by
-// an independent decoder from ROS's own message definitions. Usage: node ros2_test.js BIN_FOLDER
+// an independent decoder from ROS's own message definitions. Usage: node topics_test.js BIN_FOLDER
 import assert from "node:assert/strict";
-import { spawn } from "node:child_process";
-import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
+import { writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { after, before, test } from "node:test";
+import { before, test } from "node:test";
 import { points, triangles } from "./clouds.js";
 import { decode, service, writerOf } from "./messages.js";
 import { Peer } from "./peer.js";
+import { bin, ddsType, domain, file, run, samplesOf } from "./program.js";
 import { covariance, float, stampNs, trajectory } from "./trajectory.js";
 
-const bin = process.argv[2];
-const folder = mkdtempSync(join(tmpdir(), "disflow-ros2-"));
-const file = (name) => join(folder, name);
-const domain = 20 + (process.pid % 80);
 const prefix = "rt/disflow/object/";
 
 const topics = {
@@ -30,23 +25,6 @@ const topics = {
   tf: ["rt/tf", "tf2_msgs/TFMessage", "reliable"],
 };
 const query = service(new URL("../../platform/linux/dds/ros2/disflow_msgs/srv/QueryDistanceField.srv", import.meta.url));
-const requestHeader = "uint64 client\nint64 seq\n";
-const reset = {
-  request: requestHeader + "uint8 structure_needs_at_least_one_member",
-  response: requestHeader + "bool success\nstring message",
-};
-const graphEntry = `rmw_dds_common/Gid gid
-rmw_dds_common/NodeEntitiesInfo[] node_entities_info_seq
-================
-MSG: rmw_dds_common/Gid
-uint8[16] data
-================
-MSG: rmw_dds_common/NodeEntitiesInfo
-string<=256 node_namespace
-string<=256 node_name
-rmw_dds_common/Gid[] reader_gid_seq
-rmw_dds_common/Gid[] writer_gid_seq`;
-const ddsType = (type) => type.replace("/", "::msg::dds_::") + "_";
 const received = (name) => decode(file(name), topics[name][1]);
 const nanoseconds = (stamp) => BigInt(stamp.sec) * 1000000000n + BigInt(stamp.nanosec ?? stamp.nsec);
 
@@ -66,11 +44,6 @@ async function call(peer, name, type, definition, body) {
 call.count = 0;
 const askDistance = (peer, points) =>
   call(peer, "query_distance_field", "disflow_msgs::srv::dds_::QueryDistanceField", query, { points });
-/** Waits for so many samples, ten seconds at most. */
-async function samplesOf(peer, topic, count) {
-  for (let i = 0; i < 200 && Number(await peer.do("count", topic)) < count; ++i) await sleep(50);
-}
-const sleep = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
 
 let samplesAsked;
 let asked;
@@ -79,14 +52,6 @@ let tooMuch;
 let rows;
 let good;
 let track;
-
-function run(...options) {
-  const child = spawn(join(bin, "disflow_track"), options, { stdio: ["ignore", "ignore", "pipe"] });
-  let said = "";
-  child.stderr.on("data", (data) => (said += data));
-  child.ended = new Promise((resolve) => child.once("exit", (status) => resolve({ status, said })));
-  return child;
-}
 
 before(async () => {
   const peer = await Peer.start(join(bin, "ros2_peer"), domain);
@@ -114,7 +79,6 @@ before(async () => {
   good = rows.filter((row) => row.status === "ok");
   assert.ok(good.length > 90, "a run that tracks");
 });
-after(() => rmSync(folder, { recursive: true }));
 
 test("Reliable topics bring every frame, in order", () => {
   assert.equal(received("status").length, rows.length);
@@ -294,61 +258,3 @@ test("query_distance_field refuses more than it can answer", () => {
 test("The run says what was sent", () => {
   assert.match(track.said, /dds:.*: \d+ messages sent, 0 failed, 0 results too late/);
 });
-
-test("Who comes late sees the node, the path and the surface, and can reset the object", async () => {
-  const late = domain + 100;
-  const child = run(
-    "--sensor", "sim:box?motion=moderate", "--rate", "realtime", "--frames", "900", "--headless", "--csv", file("late.csv"),
-    "--link", `dds:domain=${late}&interface=lo&peer=127.0.0.1&name=robot&camera=d415_optical`,
-  );
-  await sleep(1500);
-  const peer = await Peer.start(join(bin, "ros2_peer"), late);
-  const seen = async (topic, type, name) => {
-    await peer.do("subscribe", topic, type, "latched", file(name));
-    await samplesOf(peer, topic, 1);
-  };
-  await seen("ros_discovery_info", "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_", "graph");
-  await seen("rt/robot/object/path", ddsType("nav_msgs/Path"), "late_path");
-  await seen("rt/robot/object/surface", ddsType("visualization_msgs/Marker"), "late_surface");
-  const header = { client: 1n, seq: 2n };
-  writeFileSync(file("request"), writerOf(reset.request).writeMessage({ ...header, structure_needs_at_least_one_member: 0 }));
-  const answer = await peer.do(
-    "call", "rq/robot/object/resetRequest", "std_srvs::srv::dds_::Trigger_Request_",
-    "rr/robot/object/resetReply", "std_srvs::srv::dds_::Trigger_Response_", file("request"), file("reset"),
-  );
-  await sleep(300);
-  child.kill("SIGTERM");
-  const { status, said } = await child.ended;
-  await peer.stop();
-  assert.equal(status, 0, said);
-  assert.equal(answer, "answered");
-  const [reply] = decode(file("reset"), reset.response);
-  assert.deepEqual({ client: reply.client, seq: reply.seq, success: reply.success }, { ...header, success: true });
-  const run2 = trajectory(file("late.csv"));
-  assert.equal(run2[0].reset_counter, "0");
-  assert.equal(run2.at(-1).reset_counter, "1");
-
-  const [{ gid, node_entities_info_seq: nodes }] = decode(file("graph"), graphEntry);
-  assert.deepEqual(nodes.map((node) => node.node_namespace + node.node_name), ["/robot"]);
-  assert.equal(nodes[0].reader_gid_seq.length, 2, "two services");
-  assert.equal(nodes[0].writer_gid_seq.length, 11, "nine topics and two services");
-  for (const entity of [...nodes[0].reader_gid_seq, ...nodes[0].writer_gid_seq]) {
-    assert.deepEqual(entity.data.slice(0, 12), gid.data.slice(0, 12), "of this participant");
-  }
-  assert.equal(decode(file("late_path"), "nav_msgs/Path")[0].header.frame_id, "d415_optical");
-  assert.equal(decode(file("late_surface"), "visualization_msgs/Marker")[0].header.frame_id, "robot/object");
-});
-
-for (const [address, message] of [
-  ["dds:", /write dds:domain=0/],
-  ["dds:domain=233", /not a number from 0 to 232/],
-  ["dds:domain=0&domain=1", /given twice/],
-  ["dds:speed=1", /unknown option speed/],
-  ["dds:domain=0&interface=nothere9", /nothere9/],
-]) {
-  test(`'${address}' is refused with words that help`, async () => {
-    const { status, said } = await run("--sensor", "sim:box", "--frames", "1", "--link", address).ended;
-    assert.ok(status === 2 || status === 4);
-    assert.match(said, message);
-  });
-}

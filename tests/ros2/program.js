@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The program under test, and what all tests need to talk about its topics.
+import { spawn } from "node:child_process";
+import { mkdtempSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { after } from "node:test";
+
+/** Folder of the programs, given on the command line. */
+export const bin = process.argv[2];
+/** A domain of this process alone, so that tests do not hear each other. */
+export const domain = 20 + (process.pid % 80);
+
+const folder = mkdtempSync(join(tmpdir(), "disflow-ros2-"));
+export const file = (name) => join(folder, name);
+after(() => rmSync(folder, { recursive: true }));
+
+export function run(...options) {
+  const child = spawn(join(bin, "disflow_track"), options, { stdio: ["ignore", "ignore", "pipe"] });
+  let said = "";
+  child.stderr.on("data", (data) => (said += data));
+  child.ended = new Promise((resolve) => child.once("exit", (status) => resolve({ status, said })));
+  return child;
+}
+
+export const ddsType = (type) => type.replace("/", "::msg::dds_::") + "_";
+export const sleep = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
+
+/** Waits for so many samples, ten seconds at most. */
+export async function samplesOf(peer, topic, count) {
+  for (let i = 0; i < 200 && Number(await peer.do("count", topic)) < count; ++i) await sleep(50);
+}
