@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <vector>
 
+#include "disflow/field/distance_query.h"
 #include "disflow/tracker.h"
 
 namespace {
@@ -55,6 +56,17 @@ int main() {
               static_cast<double>(position_m.x()), static_cast<double>(position_m.y()),
               static_cast<double>(position_m.z()),
               static_cast<double>(estimate.twist.linear_mps.norm()), disflow::Name(estimate.state));
+
+  // How far a point is from the surface, e.g. a finger of a gripper; object frame.
+  using Querier = disflow::DistanceQuerier<disflow::profiles::Edge>;
+  static Querier::Workspace workspace;
+  Querier querier(tracker.field(), workspace, 0.01F);
+  const auto finger = querier.Query({0.0F, 0.0F, -0.3F});
+  if (!finger.ok()) return 1;
+  std::printf("a finger there is %.3f m away, +- %.3f m\n",
+              static_cast<double>(finger.value.distance_m),
+              static_cast<double>(std::sqrt(finger.value.variance_m2)));
   const float speed_mps = estimate.twist.linear_mps.x();
-  return speed_mps > 0.08F && speed_mps < 0.12F ? 0 : 1;
+  const bool is_plausible = finger.value.distance_m > 0.1F && finger.value.distance_m < 0.3F;
+  return is_plausible && speed_mps > 0.08F && speed_mps < 0.12F ? 0 : 1;
 }
