@@ -2,6 +2,7 @@
 #include "object_view.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "disflow/posix/monotonic_clock.h"
@@ -16,7 +17,7 @@ constexpr std::int64_t kSurfaceInterval_ns = kSecond_ns / 2;
 /// Drawing the surface takes at most one part in so many of a processor's time.
 constexpr std::int64_t kSurfaceShare = 8;
 /// Beyond this a surface is drawn more coarsely: a telephone has to show it too.
-constexpr std::size_t kMostVertices = 40'000;
+constexpr std::size_t kMostVertices = 20'000;
 
 }  // namespace
 
@@ -68,11 +69,15 @@ void ObjectView::Draw(ModelSnapshot& snapshot, std::int64_t now_ns) {
 
 void ObjectView::DrawSurface(ModelSnapshot& snapshot, std::int64_t now_ns) {
   const float finest_m = DrawingOptions(snapshot.config().field, 0.0F).resolution_m;
+  const std::uint8_t reset = snapshot.result().estimate.reset_counter;
+  if (reset != surface_reset_) coarser_ = kCoarserAtFirst;
+  surface_reset_ = reset;
   SurfaceMesh mesh;
   // An empty model gives an empty mesh.
   (void)snapshot.ExtractSurface(coarser_ * finest_m, mesh);
-  if (mesh.vertices().size() > kMostVertices) coarser_ *= 1.25F;
-  surface_reset_ = snapshot.result().estimate.reset_counter;
+  const float share =
+      static_cast<float>(mesh.vertices().size()) / static_cast<float>(kMostVertices);
+  if (share > 1.0F) coarser_ *= 1.05F * std::sqrt(share);
   Put(kSurface, EncodeSurface(object_, snapshot.result().estimate.stamp_ns, mesh));
   const std::int64_t took_ns = posix::MonotonicClock().NowNs() - now_ns;
   surface_due_ns_ = now_ns + std::max(kSurfaceInterval_ns, kSurfaceShare * took_ns);

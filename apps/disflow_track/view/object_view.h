@@ -56,7 +56,9 @@ class ObjectView {
   bool requested_ = false;
   std::int64_t surface_due_ns_ = 0;
   std::uint8_t surface_reset_ = 0;
-  float coarser_ = 1.0F;
+  /// Than the model's own detail.
+  static constexpr float kCoarserAtFirst = 2.0F;
+  float coarser_ = kCoarserAtFirst;
 };
 
 }  // namespace disflow::apps
