@@ -15,7 +15,7 @@ constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr std::int64_t kStatusInterval_ns = kSecond_ns / 2;
 constexpr std::int64_t kSurfaceInterval_ns = kSecond_ns / 2;
 /// Drawing the surface takes at most one part in so many of a processor's time.
-constexpr std::int64_t kSurfaceShare = 8;
+constexpr std::int64_t kSurfaceShare = 4;
 /// Beyond this a surface is drawn more coarsely: a telephone has to show it too.
 constexpr std::size_t kMostVertices = 20'000;
 
