@@ -192,6 +192,20 @@ TEST_F(LiveTest, FourTimesAsManyFrames_TakeNoMoreAllocations) {
         << rate;
   }
 }
+
+TEST_F(LiveTest, FourTimesAsManyFramesOfTwoObjects_TakeNoMoreAllocations) {
+  constexpr double kStringsOfTheReport = 20.0;
+  const auto run = [&](int frames) {
+    return AllocationsOf(
+        {"--sensor", "sim:box+bottle?noise=d415&frames=240", "--threads", "2", "--object",
+         "name=box,label=1", "--object", "name=bottle,label=2", "--frames", std::to_string(frames),
+         "--headless", "--link", "udp://127.0.0.1:9", "--csv", Path("run.csv")},
+        scratch());
+  };
+  const long few = run(60);
+  EXPECT_GT(few, 100) << "the counter counts nothing";
+  EXPECT_NEAR(static_cast<double>(run(240)), static_cast<double>(few), kStringsOfTheReport);
+}
 #endif
 
 }  // namespace
