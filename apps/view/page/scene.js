@@ -10,7 +10,7 @@ const kArrow_s = 0.08; // An arrow is as long as the way in this time.
 const kDelay_s = 0.15; // Poses come in bundles; drawn so much later they move evenly.
 // Drawn no oftener: a processor that has to draw by itself shall not be busy with it alone.
 const kFrame_s = 1 / 35;
-const kFrameByProcessor_s = 1 / 8;
+const kFrameByProcessor_s = 1 / 4;
 const kSlow_s = 0.08;
 const kCoarsest = 0.4; // Pixels drawn per pixel of the screen.
 
@@ -26,7 +26,7 @@ export class Scene {
     const fast = hasGraphicsProcessor();
     this.frame_s = fast ? kFrame_s : kFrameByProcessor_s;
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: fast });
-    this.renderer.setPixelRatio(fast ? Math.min(devicePixelRatio, 2) : 0.6);
+    this.renderer.setPixelRatio(fast ? Math.min(devicePixelRatio, 2) : 0.5);
     this.scene = new THREE.Scene();
     this.camera = new THREE.PerspectiveCamera(40, 1, 0.01, 30);
     this.controls = new OrbitControls(this.camera, canvas);
