@@ -26,7 +26,7 @@ struct RecordedFrame {
 struct SequenceIndex {
   CameraDescription camera;
   bool float_depth = false;  ///< Fast-YCB's .float files; else 16-bit PNG.
-  int masked_objects = 0;  ///< 0: there are no masks.
+  int masked_objects = 0;    ///< 0: there are no masks.
   bool has_T_wc = false;
   std::vector<RecordedFrame> frames;  ///< Never empty after success.
 };
