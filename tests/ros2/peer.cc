@@ -158,6 +158,7 @@ class Peer {
 
  private:
   static constexpr int kTurns = 1000;
+  static constexpr int kAttempts = 3;
   static constexpr std::chrono::milliseconds kTurn{10};
   static constexpr std::chrono::milliseconds kSettle{500};
 
@@ -219,8 +220,12 @@ class Peer {
     if (recorders_.count(word[3]) == 0) Subscribe(word[3], word[4], "reliable", word[6]);
     const Recorder& replies = *recorders_.at(word[3]);
     const int before = replies.count();
-    return Publish(word[1], word[2], "reliable", word[5]) &&
-           Await([&] { return replies.count() > before; });
+    // The server's first reply is lost if it has not found the reader of replies yet.
+    for (int attempt = 0; attempt < kAttempts; ++attempt) {
+      if (!Publish(word[1], word[2], "reliable", word[5])) return false;
+      if (Await([&] { return replies.count() > before; })) return true;
+    }
+    return false;
   }
 
   dds::DomainParticipant* participant_;

@@ -2,11 +2,12 @@
 // The Fast DDS participant as a test sees it; its commands are explained in peer.cc.
 import { spawn } from "node:child_process";
 import { createInterface } from "node:readline";
+import { owned } from "./program.js";
 
 export class Peer {
   static async start(program, domain) {
     const peer = new Peer();
-    peer.process = spawn(program, [String(domain)], { stdio: ["pipe", "pipe", "inherit"] });
+    peer.process = owned(spawn(program, [String(domain)], { stdio: ["pipe", "pipe", "inherit"] }));
     peer.lines = createInterface({ input: peer.process.stdout })[Symbol.asyncIterator]();
     await peer.answer();
     return peer;

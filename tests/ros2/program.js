@@ -13,10 +13,19 @@ export const domain = 20 + (process.pid % 80);
 
 const folder = mkdtempSync(join(tmpdir(), "disflow-ros2-"));
 export const file = (name) => join(folder, name);
-after(() => rmSync(folder, { recursive: true }));
+const children = [];
+/** Ends with the tests, also with those that failed. */
+export function owned(child) {
+  children.push(child);
+  return child;
+}
+after(() => {
+  for (const child of children) child.kill("SIGKILL");
+  rmSync(folder, { recursive: true });
+});
 
 export function run(...options) {
-  const child = spawn(join(bin, "disflow_track"), options, { stdio: ["ignore", "ignore", "pipe"] });
+  const child = owned(spawn(join(bin, "disflow_track"), options, { stdio: ["ignore", "ignore", "pipe"] }));
   let said = "";
   child.stderr.on("data", (data) => (said += data));
   child.ended = new Promise((resolve) => child.once("exit", (status) => resolve({ status, said })));
