@@ -18,7 +18,7 @@ void DdsQueries::Receive(const DdsFrames& frames) {
     const std::size_t count = request.points._length;
     if (count > kMaxPoints || jobs_.size() >= kMaxRequests) {
       Reply(job,
-            count > kMaxPoints ? "too many points: at most 10000 fit into one request"
+            count > kMaxPoints ? "too many points: at most 2000 fit into one request"
                                : "too many requests at once: ask again",
             0, frames);
       return;

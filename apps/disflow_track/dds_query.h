@@ -18,8 +18,9 @@ class DdsQueries {
  public:
   using Service = posix::RosService<posix::ros::QueryRequest, posix::ros::QueryResponse>;
 
-  static constexpr std::size_t kMaxPoints = 10'000;  ///< Of one request.
-  static constexpr std::size_t kMaxRequests = 16;    ///< At once.
+  static constexpr std::size_t kMaxPoints =
+      2000;  ///< Of one request: fits into a socket's default buffer.
+  static constexpr std::size_t kMaxRequests = 16;  ///< At once.
   static constexpr std::size_t kPointsPerTurn = 1000;
 
   [[nodiscard]] Service& service() noexcept { return service_; }
