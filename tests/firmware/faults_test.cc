@@ -120,7 +120,7 @@ TEST_F(FaultTest, FramesThatDoNotFit_AreRefusedAndCounted) {
 }
 
 TEST_F(FaultTest, BytesBeyondTheReceiveBuffer_AreCountedAndTrackingGoesOn) {
-  FedBoard board({});
+  FedBoard board({}, /*paced=*/false);
   board.WaitUntilReady();
   ASSERT_TRUE(board.Track(frames_[0]).tracked);
   // Frames follow without waiting: bytes arrive while the controller works. How many is a matter of

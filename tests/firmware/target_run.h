@@ -16,6 +16,7 @@
 #include "board_connection.h"
 #include "disflow/posix/monotonic_clock.h"
 #include "emulator.h"
+#include "paced_line.h"
 #include "sequence.h"
 
 namespace disflow::firmware_test {
@@ -25,8 +26,11 @@ inline constexpr std::int64_t kPatience_ns = 60'000'000'000;
 /// A board that is told frames over its UART.
 class FedBoard {
  public:
-  explicit FedBoard(const EmulatorOptions& options)
-      : emulator_(options), connection_(emulator_.uart(), clock_) {}
+  /// @param paced false: bytes come faster than any line brings them.
+  explicit FedBoard(const EmulatorOptions& options, bool paced = true)
+      : emulator_(options),
+        paced_(emulator_.uart()),
+        connection_(paced ? static_cast<hal::ByteLink&>(paced_) : emulator_.uart(), clock_) {}
 
   [[nodiscard]] apps::BoardConnection& connection() { return connection_; }
   [[nodiscard]] hal::ByteLink& uart() { return emulator_.uart(); }
@@ -49,6 +53,7 @@ class FedBoard {
  private:
   posix::MonotonicClock clock_;
   Emulator emulator_;
+  PacedLine paced_;
   apps::BoardConnection connection_;
 };
 
