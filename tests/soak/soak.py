@@ -37,8 +37,8 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         # Small images: the loops, counters and buffers are the same, and a sanitizer keeps pace. The stamps of the stream
         # run faster than its name says, so that it is live and at several times real time.
-        sensor = (f"sim:bottle?width=320&height=180&frames={frames}&fps={_FPS * arguments.speed:g}&motion=moderate"
-                  "&noise=d415&drop=0.01")
+        image = "width=160&height=90" if arguments.valgrind else "width=320&height=180&noise=d415"
+        sensor = f"sim:bottle?{image}&frames={frames}&fps={_FPS * arguments.speed:g}&motion=moderate&drop=0.01"
         command = [arguments.program, "--sensor", sensor, "--rate", "live", "--headless", "--link",
                    "udp://127.0.0.1:9", "--csv", f"{folder}/run.csv"]
         if arguments.valgrind:
