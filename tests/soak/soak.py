@@ -58,8 +58,8 @@ def main():
             text = log.read()
         rows = sum(1 for _ in open(f"{folder}/run.csv", encoding="ascii")) - 1
     print(text.rstrip())
-    # The first fifth is the start: pages that are touched for the first time.
-    steady = samples[len(samples) // 5:-1]
+    # The first fifth is the start: pages that are touched for the first time. Valgrind opens files to write its report.
+    steady = samples[len(samples) // 5:-60 if arguments.valgrind else -1]
     if process.returncode != 0 or len(steady) < 5:
         print(f"soak: ended with {process.returncode} after {seconds:.0f} s", file=sys.stderr)
         return 1
