@@ -37,6 +37,7 @@ def main():
     setting.programs = os.path.abspath(arguments.programs)
     setting.arm_programs = os.path.abspath(arguments.arm_programs)
     setting.folder = os.path.abspath(arguments.folder)
+    os.makedirs(setting.folder, exist_ok=True)
     loader = unittest.TestLoader()
     suite = unittest.TestSuite(loader.loadTestsFromModule(importlib.import_module(name))
                                for name in arguments.only or _SUITES)
