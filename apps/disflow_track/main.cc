@@ -2,12 +2,12 @@
 #include <cstdio>
 #include <exception>
 
-#include "exit_status.h"
-#include "options.h"
-#include "run.h"
-#include "sensor_choice.h"
-#include "settings.h"
-#include "stop_signal.h"
+#include "input/sensor_choice.h"
+#include "program/exit_status.h"
+#include "program/stop_signal.h"
+#include "run/run.h"
+#include "settings/options.h"
+#include "settings/settings.h"
 
 namespace disflow::apps {
 namespace {

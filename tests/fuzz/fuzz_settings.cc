@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <string>
 
-#include "camera_file.h"
 #include "disflow/config.h"
-#include "exit_status.h"
 #include "file_in_memory.h"
-#include "settings.h"
+#include "program/exit_status.h"
+#include "settings/camera_file.h"
+#include "settings/settings.h"
 
 /// The settings file and the camera's: refused with file and words, or good enough to be used.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "live_view.h"
+#include "view/live_view.h"
 
 #include <algorithm>
 #include <utility>
 
 #include "disflow/posix/monotonic_clock.h"
 #include "disflow/posix/quiet_thread.h"
-#include "view_messages.h"
-#include "view_texts.h"
+#include "view/view_messages.h"
+#include "view/view_texts.h"
 
 namespace disflow::apps {
 namespace {

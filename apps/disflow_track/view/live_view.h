@@ -10,8 +10,8 @@
 
 #include "disflow/hal/fault.h"
 #include "disflow/posix/view/web_server.h"
-#include "object_channel.h"
-#include "object_view.h"
+#include "objects/object_channel.h"
+#include "view/object_view.h"
 
 namespace disflow::apps {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "object_view.h"
+#include "view/object_view.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "disflow/posix/monotonic_clock.h"
-#include "view_messages.h"
+#include "view/view_messages.h"
 
 namespace disflow::apps {
 namespace {

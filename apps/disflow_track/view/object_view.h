@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "disflow/posix/view/message_board.h"
-#include "object_channel.h"
-#include "view_texts.h"
+#include "objects/object_channel.h"
+#include "view/view_texts.h"
 
 namespace disflow::apps {
 

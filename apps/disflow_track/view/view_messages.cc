@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "view_messages.h"
+#include "view/view_messages.h"
 
 #include <algorithm>
 #include <cmath>

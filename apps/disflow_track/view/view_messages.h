@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "depth_picture.h"
 #include "flow_cloud.h"
-#include "frame_result.h"
+#include "objects/depth_picture.h"
+#include "program/frame_result.h"
 #include "surface_mesh.h"
 
 /// @file

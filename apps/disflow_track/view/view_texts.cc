@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "view_texts.h"
+#include "view/view_texts.h"
 
 #include <nlohmann/json.hpp>
 
-#include "view_messages.h"
+#include "view/view_messages.h"
 
 namespace disflow::apps {
 namespace {

@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "frame_result.h"
+#include "program/frame_result.h"
 
 /// @file
 /// What the live view sends as JSON: names, and what changes slowly.

@@ -7,7 +7,7 @@ import sys
 import tempfile
 import unittest
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "apps" / "disflow_suite"))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "tests" / "bench" / "suite"))
 
 import ablation
 import accuracy

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dds/dds_inputs.h"
+
+#include <string_view>
+
+#include "dds/dds_motion.h"
+#include "program/exit_status.h"
+
+namespace disflow::apps {
+namespace {
+
+namespace ros = posix::ros;
+using posix::RosQos;
+
+void Require(const hal::Fault& fault) {
+  if (!fault.ok()) throw Failure(kOutputFailed, fault.message);
+}
+
+}  // namespace
+
+DdsInputs::DdsInputs(const DdsAddress& address, posix::RosNode& node, PoseMailbox* poses,
+                     MaskMailbox* masks)
+    : poses_(poses), masks_(masks), transforms_(address.world_frame, address.camera_frame) {
+  if (poses_ != nullptr) {
+    Require(node.Subscribe("/tf", RosQos::kReliable, tf_));
+    Require(node.Subscribe("/tf_static", RosQos::kLatchedMany, tf_static_));
+  }
+  // Best effort takes from reliable writers too.
+  if (masks_ != nullptr) {
+    Require(node.Subscribe(address.mask_topic, RosQos::kSensorData, images_));
+  }
+}
+
+void DdsInputs::Turn(const DdsClock& clock) {
+  if (poses_ != nullptr) TakeTransforms(clock);
+  if (masks_ == nullptr) return;
+  images_.TakeAll([this, &clock](const ros::Image& image) { TakeMask(image, clock); });
+}
+
+void DdsInputs::TakeTransforms(const DdsClock& clock) {
+  const auto add = [this, &clock](const ros::TFMessage& message, bool fixed) {
+    for (std::uint32_t i = 0; i < message.transforms._length; ++i) {
+      transforms_.Add(message.transforms._buffer[i], fixed);
+    }
+    // After every message: each is a moment of its own.
+    const auto camera = transforms_.Camera();
+    if (!camera || camera->ros_ns <= pose_ns_ || !clock.known()) return;
+    pose_ns_ = camera->ros_ns;
+    poses_->Put(clock.FromRos(camera->ros_ns), camera->T_wc);
+  };
+  tf_static_.TakeAll([&add](const ros::TFMessage& message) { add(message, true); });
+  tf_.TakeAll([&add](const ros::TFMessage& message) { add(message, false); });
+}
+
+void DdsInputs::TakeMask(const ros::Image& image, const DdsClock& clock) {
+  const std::string_view encoding = image.encoding == nullptr ? "" : image.encoding;
+  const bool is_mask = encoding == "mono8" || encoding == "8UC1";
+  if (!clock.known()) return;
+  // What is no mask is told as one of a wrong size, with nothing in it.
+  masks_->Put(clock.FromRos(RosNanoseconds(image.header.stamp)), is_mask ? image.width : 0,
+              is_mask ? image.height : 0, image.step, {image.data._buffer, image.data._length});
+}
+
+}  // namespace disflow::apps

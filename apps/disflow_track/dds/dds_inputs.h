@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "dds/dds_clock.h"
+#include "dds/dds_transforms.h"
+#include "disflow/posix/dds/ros_node.h"
+#include "input/side_mailbox.h"
+#include "settings/dds_address.h"
+
+namespace disflow::apps {
+
+/// What the program takes from ROS 2: masks and the camera's pose.
+class DdsInputs {
+ public:
+  /// @param poses,masks Null: not wanted. Else they outlive this.
+  /// @throws Failure kOutputFailed.
+  DdsInputs(const DdsAddress& address, posix::RosNode& node, PoseMailbox* poses,
+            MaskMailbox* masks);
+
+  /// Hands on what has come in.
+  void Turn(const DdsClock& clock);
+
+ private:
+  void TakeTransforms(const DdsClock& clock);
+  void TakeMask(const posix::ros::Image& image, const DdsClock& clock);
+
+  PoseMailbox* poses_;
+  MaskMailbox* masks_;
+  DdsTransforms transforms_;
+  std::int64_t pose_ns_ = 0;  ///< ROS time of the pose handed on last.
+  posix::RosSubscription<posix::ros::TFMessage> tf_;
+  posix::RosSubscription<posix::ros::TFMessage> tf_static_;
+  posix::RosSubscription<posix::ros::Image> images_;
+};
+
+}  // namespace disflow::apps

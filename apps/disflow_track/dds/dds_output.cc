@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dds/dds_output.h"
+
+#include <atomic>
+#include <chrono>
+#include <deque>
+#include <optional>
+#include <thread>
+
+#include "dds/dds_inputs.h"
+#include "dds/dds_object.h"
+#include "disflow/posix/monotonic_clock.h"
+#include "program/exit_status.h"
+#include "settings/dds_address.h"
+
+namespace disflow::apps {
+
+/// The node, its objects and the thread that serves them.
+class DdsPublisher {
+ public:
+  DdsPublisher(const std::string& uri, std::span<ObjectChannel* const> channels, bool live,
+               SideInputs& inputs)
+      : uri_(uri), clock_(live) {
+    const DdsAddress address = ParseDdsAddress(uri);
+    posix::RosNode::Options options;
+    options.network = {address.domain, address.interface, address.peers};
+    options.name = address.name;
+    options.before_iron = address.before_iron;
+    Require(node_.Open(options));
+    Require(node_.Advertise("/tf", posix::RosQos::kReliable, transforms_));
+    for (ObjectChannel* const channel : channels) {
+      objects_.emplace_back(address, *channel, signal_, clock_, node_, transforms_, counters_);
+    }
+    inputs_.emplace(address, node_, inputs.pose_mailbox(), inputs.mask_mailbox());
+    Require(node_.Announce());
+    thread_ = std::thread([this] { Serve(); });
+  }
+  DdsPublisher(const DdsPublisher&) = delete;
+  DdsPublisher& operator=(const DdsPublisher&) = delete;
+  ~DdsPublisher() { Finish(); }
+
+  void Finish() {
+    if (!thread_.joinable()) return;
+    stop_ = true;
+    signal_.Raise();
+    thread_.join();
+  }
+
+  [[nodiscard]] std::string Summary() const {
+    std::uint64_t lost = 0;
+    for (const DdsObject& object : objects_) lost += object.lost();
+    return uri_ + ": " + std::to_string(counters_.sent) + " messages sent, " +
+           std::to_string(counters_.failed) + " failed, " + std::to_string(lost) +
+           " results too late to be sent";
+  }
+
+ private:
+  static constexpr std::int64_t kPatience_ns = 5'000'000;
+  static constexpr std::int64_t kFarewell_ns = 1'000'000'000;
+  static constexpr int kTurns = 75;
+  static constexpr std::chrono::milliseconds kTurn{20};
+  static constexpr std::chrono::milliseconds kSettle{250};
+
+  void Require(const hal::Fault& fault) const {
+    if (!fault.ok()) throw Failure(kOutputFailed, "link '" + uri_ + "': " + fault.message);
+  }
+
+  /// Who was there before needs a moment to find this node, and is to miss nothing: results wait in
+  /// their queues meanwhile.
+  void AwaitListeners() {
+    for (int i = 0; i < kTurns && !node_.HasListeners(); ++i) std::this_thread::sleep_for(kTurn);
+    // They find one topic after the other.
+    if (node_.HasListeners()) std::this_thread::sleep_for(kSettle);
+  }
+
+  void Serve() {
+    AwaitListeners();
+    while (!stop_) {
+      // Also without news: requests do not raise the signal.
+      (void)signal_.WaitFor(kPatience_ns);
+      inputs_->Turn(clock_);
+      for (DdsObject& object : objects_) object.Turn(steady_.NowNs());
+    }
+    for (DdsObject& object : objects_) object.Finish(steady_.NowNs());
+    node_.WaitForAcknowledgments(kFarewell_ns);
+  }
+
+  std::string uri_;
+  NewsSignal signal_;
+  DdsClock clock_;
+  posix::MonotonicClock steady_;
+  posix::RosNode node_;
+  DdsObject::TransformPublisher transforms_;
+  DdsCounters counters_;
+  std::deque<DdsObject> objects_;
+  std::optional<DdsInputs> inputs_;
+  std::atomic<bool> stop_ = false;
+  std::thread thread_;
+};
+
+DdsOutput::DdsOutput(const std::string& uri, std::span<ObjectChannel* const> objects, bool live,
+                     SideInputs& inputs) {
+  if (!uri.empty()) publisher_ = std::make_unique<DdsPublisher>(uri, objects, live, inputs);
+}
+
+DdsOutput::~DdsOutput() = default;
+
+void DdsOutput::Finish() {
+  if (publisher_) publisher_->Finish();
+}
+
+std::vector<std::string> DdsOutput::Summary() const {
+  if (!publisher_) return {};
+  return {publisher_->Summary()};
+}
+
+}  // namespace disflow::apps

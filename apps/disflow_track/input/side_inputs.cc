@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "input/side_inputs.h"
+
+#include <cmath>
+
+#include "settings/dds_address.h"
+
+namespace disflow::apps {
+namespace {
+
+hal::CameraPoseHistory::Settings PoseSettings(const CameraPoseOptions& options) {
+  // Optical axes (right, down, forward) in a body's (forward, right, down).
+  std::vector<double> numbers = {0.0, 0.0, 0.0, 0.5, 0.5, 0.5, 0.5};
+  if (!options.camera_in_body.empty()) numbers = options.camera_in_body;
+  const Eigen::Quaternion<double, Eigen::DontAlign> q(numbers[3], numbers[4], numbers[5],
+                                                      numbers[6]);
+  const Transform<hal::Body, Camera, double> T_bc(
+      q, Mat<double, 3>(numbers[0], numbers[1], numbers[2]));
+  return {.T_bc = T_bc.Cast<float>()};
+}
+
+std::string Line(const std::string& name,
+                 std::initializer_list<std::pair<const char*, std::uint32_t>> counts) {
+  std::string line = name + ":";
+  for (const auto& [what, count] : counts) {
+    line.append(line.back() == ':' ? " " : ", ")
+        .append(std::to_string(count))
+        .append(" ")
+        .append(what);
+  }
+  return line;
+}
+
+}  // namespace
+
+SideInputs::SideInputs(const Options& options, const hal::SensorInfo& sensor) {
+  if (!options.mask_stream.empty()) {
+    masks_ = posix::MakeMaskSource(options.mask_stream, sensor.width_px, sensor.height_px,
+                                   std::llround(options.mask_max_age_s * 1e9));
+  }
+  if (options.camera_pose.system_id != 0) poses_.emplace(PoseSettings(options.camera_pose));
+  if (options.dds_link.empty()) return;
+  const DdsAddress address = ParseDdsAddress(options.dds_link);
+  if (!address.mask_topic.empty()) {
+    auto mailbox =
+        std::make_unique<MaskMailbox>(address.mask_topic, sensor.width_px, sensor.height_px,
+                                      std::llround(options.mask_max_age_s * 1e9));
+    mask_mailbox_ = mailbox.get();
+    masks_ = std::move(mailbox);
+  }
+  if (!address.world_frame.empty()) {
+    // tf leads to the optical frame itself.
+    poses_.emplace(hal::CameraPoseHistory::Settings{});
+    pose_mailbox_.emplace();
+  }
+}
+
+void SideInputs::Attach(DepthFrame& frame, Console& console) noexcept {
+  if (masks_) {
+    const Status status = masks_->Attach(frame);
+    // A writer that comes and goes with every frame must not fill the log: each kind is said once.
+    if (status == Status::kMaskSizeMismatch && mask_status_ != status) {
+      console.Say(masks_->name() + ": masks are not as large as the depth images (" +
+                  std::to_string(frame.depth.width_px) + " x " +
+                  std::to_string(frame.depth.height_px) + "); frames go without");
+      mask_status_ = status;
+    } else if (status == Status::kCorrupt && mask_status_ != status) {
+      console.Say(masks_->name() + ": is no mask stream, see docs/masks.md; frames go without");
+      mask_status_ = status;
+    }
+  }
+  if (pose_mailbox_) pose_mailbox_->MoveTo(*poses_);
+  if (poses_) frame.has_T_wc = poses_->At(frame.stamp_ns, frame.T_wc) == Status::kOk;
+}
+
+std::vector<std::string> SideInputs::Summary() const {
+  std::vector<std::string> lines;
+  if (masks_) {
+    const posix::MaskCounters& counters = masks_->counters();
+    lines.push_back(Line("masks from " + masks_->name(), {{"used", counters.used},
+                                                          {"missing", counters.missing},
+                                                          {"late", counters.late},
+                                                          {"torn", counters.torn},
+                                                          {"of another size", counters.wrong_size},
+                                                          {"corrupt", counters.corrupt}}));
+  }
+  if (poses_) {
+    const hal::CameraPoseHistory::Counters& counters = poses_->counters();
+    lines.push_back(Line("camera poses", {{"received", counters.poses},
+                                          {"refused", counters.refused},
+                                          {"jumps", counters.jumps},
+                                          {"frames matched", counters.matched},
+                                          {"of them extrapolated", counters.continued},
+                                          {"frames without", counters.unmatched}}));
+  }
+  return lines;
+}
+
+}  // namespace disflow::apps

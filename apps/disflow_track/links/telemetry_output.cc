@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "links/telemetry_output.h"
+
+#include "program/exit_status.h"
+
+namespace disflow::apps {
+namespace {
+
+using hal::ByteLink;
+using hal::Fault;
+
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
+
+constexpr int kPiecesPerTurn = 8;
+constexpr std::size_t kPiece_bytes = 2048;
+
+hal::mavlink::TelemetryOptions EncoderOptions(const Options& options, std::uint8_t object_index) {
+  hal::mavlink::TelemetryOptions encoder;
+  encoder.object_index = object_index;
+  if (options.camera_pose.system_id != 0) encoder.pose_frame = options.camera_pose.world;
+  return encoder;
+}
+
+hal::mavlink::CameraPoseSource PoseSource(const CameraPoseOptions& options) {
+  return {.system_id = static_cast<std::uint8_t>(options.system_id),
+          .world = options.world,
+          .own_clock = options.own_clock};
+}
+
+}  // namespace
+
+TelemetryOutput::TelemetryOutput(const Options& options, hal::CameraPoseHistory* camera_poses,
+                                 Console& console)
+    : console_(console) {
+  for (const ObjectOptions& object : options.objects) {
+    components_.push_back(
+        {.id = static_cast<std::uint8_t>(hal::mavlink::kFirstComponentId + object.index),
+         .encoder = hal::mavlink::TelemetryEncoder(EncoderOptions(options, object.index))});
+  }
+  for (const std::string& uri : options.links) {
+    Line& line = lines_.emplace_back();
+    if (camera_poses != nullptr) {
+      line.camera_pose.emplace(PoseSource(options.camera_pose), *camera_poses);
+    }
+    const Fault fault = line.link.Configure(uri);
+    if (!fault.ok()) throw Failure(kWrongUsage, fault.message);
+  }
+  for (Line& line : lines_) {
+    const Fault fault = line.link.get()->Open();
+    if (!fault.ok()) throw Failure(kOutputFailed, fault.message);
+  }
+}
+
+TelemetryOutput::~TelemetryOutput() {
+  for (Line& line : lines_) line.link.get()->Close();
+}
+
+void TelemetryOutput::Send(std::span<const FrameResult> results, std::int64_t age_ns,
+                           std::int64_t now_ns) noexcept {
+  if (lines_.empty()) return;
+  Reopen(now_ns);
+  for (std::size_t i = 0; i < components_.size(); ++i)
+    components_[i].state = results[i].estimate.state;
+  stamp_ns_ = results.front().estimate.stamp_ns;
+  // In a replay at full speed a second of the stream passes sooner than one on the clock.
+  if (!heartbeat_sent_ || now_ns - heartbeat_ns_ >= kSecond_ns ||
+      stamp_ns_ - heartbeat_stamp_ns_ >= kSecond_ns) {
+    SendHeartbeats(now_ns);
+  }
+  for (std::size_t i = 0; i < components_.size(); ++i) {
+    const FrameResult& result = results[i];
+    Broadcast(components_[i].encoder.EncodeOdometry(result.estimate, buffer_));
+    const hal::mavlink::SendContext context{
+        .age_ns = age_ns, .sensor = result.sensor, .totals = result.totals};
+    Broadcast(components_[i].encoder.EncodeStatus(result.estimate, context, buffer_));
+  }
+}
+
+void TelemetryOutput::Receive(std::int64_t now_ns) noexcept {
+  for (Line& line : lines_) {
+    if (!line.lost) ReceiveOn(line, now_ns);
+  }
+}
+
+void TelemetryOutput::ReceiveOn(Line& line, std::int64_t now_ns) noexcept {
+  std::array<std::byte, kPiece_bytes> piece;
+  for (int i = 0; i < kPiecesPerTurn; ++i) {
+    const Expected<std::size_t> received = line.link.get()->Receive(piece);
+    // A device that is gone shows when something is sent, and that is soon.
+    if (!received.ok() || received.value == 0) break;
+    const auto bytes = std::span(piece).first(received.value);
+    line.queries.Receive(bytes);
+    if (line.camera_pose) line.camera_pose->Receive(bytes, now_ns);
+  }
+  if (!line.camera_pose || line.camera_pose->refused_frame() == 0 || line.frame_refusal_said)
+    return;
+  line.frame_refusal_said = true;
+  console_.Say(std::string(line.link.get()->name()) + ": ODOMETRY with frame_id " +
+               std::to_string(line.camera_pose->refused_frame()) +
+               " is not in the frame that --camera-world names and is left out");
+}
+
+void TelemetryOutput::Answer(const TrackedObjects& objects,
+                             std::span<const FrameResult> results) noexcept {
+  for (Line& line : lines_) {
+    for (const hal::mavlink::DisflowQuery& query : line.queries.waiting()) {
+      for (std::size_t i = 0; i < components_.size(); ++i) {
+        const bool is_first = query.target_component == 0 && i == 0;
+        if (!is_first && query.target_component != components_[i].id) continue;
+        const auto answer =
+            hal::mavlink::AnswerQuery(query, results[i].estimate.stamp_ns,
+                                      [&](const Vec3& x_m) { return objects[i]->Query(x_m); });
+        // The buffer holds every message, so encoding cannot fail.
+        const auto size = components_[i].encoder.EncodeMessage(answer, buffer_);
+        SendOn(line, std::span(buffer_).first(size.value));
+      }
+    }
+    line.queries.Clear();
+  }
+}
+
+void TelemetryOutput::KeepAlive(std::int64_t now_ns) noexcept {
+  if (lines_.empty()) return;
+  Receive(now_ns);
+  Reopen(now_ns);
+  if (!heartbeat_sent_ || now_ns - heartbeat_ns_ >= kSecond_ns) SendHeartbeats(now_ns);
+}
+
+void TelemetryOutput::SendHeartbeats(std::int64_t now_ns) noexcept {
+  heartbeat_sent_ = true;
+  heartbeat_ns_ = now_ns;
+  heartbeat_stamp_ns_ = stamp_ns_;
+  for (Component& component : components_)
+    Broadcast(component.encoder.EncodeHeartbeat(component.state, buffer_));
+}
+
+void TelemetryOutput::Broadcast(Expected<std::size_t> size) noexcept {
+  // The buffer holds every message, so encoding cannot fail.
+  if (!size.ok()) return;
+  for (Line& line : lines_) SendOn(line, std::span(buffer_).first(size.value));
+}
+
+void TelemetryOutput::SendOn(Line& line, std::span<const std::byte> message) noexcept {
+  if (line.lost) return;
+  const Fault fault = line.link.get()->Send(message);
+  // A full buffer is counted by the link itself and is no reason to open it anew.
+  if (fault.ok() || fault.status == Status::kWouldBlock) return;
+  line.lost = true;
+  line.retry_ns = 0;
+  console_.Say(std::string(fault.message) +
+               "; tracking goes on, the link is tried again every second");
+}
+
+void TelemetryOutput::Reopen(std::int64_t now_ns) noexcept {
+  for (Line& line : lines_) {
+    if (!line.lost) continue;
+    if (line.retry_ns == 0) line.retry_ns = now_ns + kSecond_ns;
+    if (now_ns < line.retry_ns) continue;
+    line.retry_ns = now_ns + kSecond_ns;
+    if (!line.link.get()->Open().ok()) continue;
+    line.lost = false;
+    console_.Say(std::string(line.link.get()->name()) + ": is back");
+  }
+}
+
+std::vector<std::string> TelemetryOutput::Summary() {
+  std::vector<std::string> summary;
+  for (Line& line : lines_) {
+    const ByteLink& link = *line.link.get();
+    const hal::LinkCounters counters = link.counters();
+    summary.push_back(std::string(link.name()) + ": " + std::to_string(counters.sent_messages) +
+                      " messages sent, " + std::to_string(counters.dropped_messages) +
+                      " dropped, " + std::to_string(counters.refused_messages) + " refused, " +
+                      std::to_string(counters.reconnects) + " reconnects" +
+                      (line.lost ? ", lost" : ""));
+  }
+  return summary;
+}
+
+bool TelemetryOutput::AnyLost() const noexcept {
+  for (const Line& line : lines_) {
+    if (line.lost) return true;
+  }
+  return false;
+}
+
+}  // namespace disflow::apps

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "objects/tracked_object.h"
+
+#include "disflow/tracker.h"
+
+namespace disflow::apps {
+namespace {
+
+template <class Limits>
+class TrackedObjectOf final : public TrackedObject {
+ public:
+  explicit TrackedObjectOf(const ObjectOptions& options)
+      : TrackedObject(options, ObjectChannel::NewSnapshot<Limits>), tracker_(options.config) {}
+
+ private:
+  void DoReset() noexcept override { tracker_.Reset(); }
+
+  void DoTrack(const DepthFrame& frame, StageClock clock, FrameResult& result) noexcept override {
+    (void)tracker_.Process(frame, result.estimate, clock);  // the estimate carries it
+    result.totals = tracker_.totals();
+  }
+
+  void DoShow(const FrameResult& result, const DepthFrame* frame) override {
+    channel().Offer(tracker_, result, frame);
+  }
+
+  int DoStreamFlow(const Estimate& estimate, FlowSink& sink) const noexcept override {
+    return disflow::StreamFlow(tracker_, estimate, sink);
+  }
+
+  Expected<DistanceQuery> DoQuery(const Vec3& x_m) noexcept override {
+    const FieldConfig& field = tracker_.config().field;
+    const float support_radius_m = DrawingOptions(field, 0.0F).support_radius_m;
+    return DistanceQuerier<Limits>(tracker_.field(), workspace_, support_radius_m).Query(x_m);
+  }
+
+  void DoExtract(const SurfaceOptions& options, SurfaceMesh& mesh) const override {
+    static SurfaceWorkspace<Limits> workspace;  // too large for a stack
+    // An empty model gives an empty mesh, which is said where it is written.
+    (void)ExtractSurface(tracker_.field(), options, workspace, mesh);
+  }
+
+  Tracker<Limits> tracker_;
+  typename DistanceQuerier<Limits>::Workspace workspace_;
+};
+
+}  // namespace
+
+void TrackedObject::Track(const DepthFrame& frame, StageClock clock, FrameResult& result) noexcept {
+  if (channel_.TakeReset()) DoReset();
+  DepthFrame own = frame;
+  if (!options_.uses_mask) own.mask = {};
+  own.mask.label = options_.label;
+  DoTrack(own, clock, result);
+}
+
+void TrackedObject::ExtractMesh(double resolution_m, SurfaceMesh& mesh) const {
+  DoExtract(DrawingOptions(options_.config.field, static_cast<float>(resolution_m)), mesh);
+}
+
+std::unique_ptr<TrackedObject> MakeTrackedObject(ProfileName profile,
+                                                 const ObjectOptions& options) {
+  switch (profile) {
+    case ProfileName::kMicro:
+      return std::make_unique<TrackedObjectOf<profiles::Micro>>(options);
+    case ProfileName::kEdge:
+      return std::make_unique<TrackedObjectOf<profiles::Edge>>(options);
+    case ProfileName::kDense:
+      return std::make_unique<TrackedObjectOf<profiles::Dense>>(options);
+  }
+  return nullptr;
+}
+
+}  // namespace disflow::apps

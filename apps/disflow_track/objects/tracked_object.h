@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "disflow/distance_flow.h"
+#include "objects/object_channel.h"
+#include "program/frame_result.h"
+#include "settings/object_options.h"
+#include "settings/options.h"
+#include "surface_mesh.h"
+
+namespace disflow::apps {
+
+/// A tracker of any profile with what it is to track. Not thread-safe, but different objects may be
+/// worked on by different threads.
+class TrackedObject {
+ public:
+  /// @param new_snapshot See ObjectChannel.
+  TrackedObject(const ObjectOptions& options,
+                std::function<std::unique_ptr<ModelSnapshot>()> new_snapshot)
+      : options_(options), channel_(options.name, options.index, std::move(new_snapshot)) {}
+  TrackedObject(const TrackedObject&) = delete;
+  TrackedObject& operator=(const TrackedObject&) = delete;
+  virtual ~TrackedObject() = default;
+
+  /// Fills estimate and totals of the result. Forgets the object first if the channel was asked to.
+  void Track(const DepthFrame& frame, StageClock clock, FrameResult& result) noexcept;
+  /// Shows the frame tracked last to the channel's listeners.
+  /// @param frame Null if it could not be read.
+  void ShowToListeners(const FrameResult& result, const DepthFrame* frame) {
+    DoShow(result, frame);
+  }
+  /// The flow of the frame tracked last. @return How many samples.
+  int StreamFlow(const Estimate& estimate, FlowSink& sink) const noexcept {
+    return DoStreamFlow(estimate, sink);
+  }
+  /// The model at a point of the object frame; see DistanceQuerier.
+  [[nodiscard]] Expected<DistanceQuery> Query(const Vec3& x_m) noexcept { return DoQuery(x_m); }
+  /// @param resolution_m 0: as fine as the model's own detail. Nothing known gives an empty mesh.
+  void ExtractMesh(double resolution_m, SurfaceMesh& mesh) const;
+
+  [[nodiscard]] const ObjectOptions& options() const noexcept { return options_; }
+  [[nodiscard]] ObjectChannel& channel() noexcept { return channel_; }
+
+ private:
+  virtual void DoReset() noexcept = 0;
+  virtual void DoTrack(const DepthFrame& frame, StageClock clock, FrameResult& result) noexcept = 0;
+  virtual void DoShow(const FrameResult& result, const DepthFrame* frame) = 0;
+  virtual int DoStreamFlow(const Estimate& estimate, FlowSink& sink) const noexcept = 0;
+  virtual Expected<DistanceQuery> DoQuery(const Vec3& x_m) noexcept = 0;
+  virtual void DoExtract(const SurfaceOptions& options, SurfaceMesh& mesh) const = 0;
+
+  const ObjectOptions& options_;
+  ObjectChannel channel_;
+};
+
+/// All objects of a run, in the order of Options::objects.
+using TrackedObjects = std::vector<std::unique_ptr<TrackedObject>>;
+
+/// Allocates the tracker's memory, all that it will ever use.
+/// @param options Must outlive the object.
+[[nodiscard]] std::unique_ptr<TrackedObject> MakeTrackedObject(ProfileName profile,
+                                                               const ObjectOptions& options);
+
+}  // namespace disflow::apps

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "run/outputs.h"
+
+#include "program/exit_status.h"
+
+namespace disflow::apps {
+
+Outputs::Outputs(const Options& options, Console& console, hal::CameraPoseHistory* camera_poses)
+    : console_(console), telemetry_(options, camera_poses, console), record_path_(options.record) {
+  for (const ObjectOptions& object : options.objects) objects_.emplace_back(object.files);
+  if (!options.record.empty()) StartRecording(options.record);
+  // Last, since it empties files that may exist.
+  for (ObjectOutputs& object : objects_) object.OpenTrajectory(options.timing);
+}
+
+void Outputs::StartRecording(const std::string& folder) {
+  constexpr const char* kObject = "object";
+  recording_.emplace();
+  const hal::Fault fault = recording_->Open(folder, kObject, /*overwrite=*/false);
+  if (!fault.ok()) throw Failure(kOutputFailed, fault.message);
+}
+
+void Outputs::Deliver(std::span<const FrameResult> results, const DepthFrame* frame,
+                      std::int64_t age_ns, std::int64_t now_ns) {
+  telemetry_.Send(results, age_ns, now_ns);
+  for (std::size_t i = 0; i < objects_.size(); ++i)
+    Attempt([&] { objects_[i].WriteRow(results[i]); });
+  if (!recording_ || frame == nullptr) return;
+  const hal::Fault fault = Record(*frame);
+  if (fault.ok()) return;
+  Fail(std::string(fault.message) + "; nothing more is recorded");
+  recording_.reset();
+}
+
+hal::Fault Outputs::Record(const DepthFrame& frame) {
+  const hal::Fault fault = recording_->AddFrame(frame);
+  return fault.ok() && frame.mask.given() ? recording_->AddMask("gt", frame.mask) : fault;
+}
+
+void Outputs::WriteFlow(const TrackedObjects& objects, std::span<const FrameResult> results) {
+  for (std::size_t i = 0; i < objects_.size(); ++i)
+    Attempt([&] { objects_[i].WriteFlow(*objects[i], results[i]); });
+}
+
+void Outputs::WriteMeshes(const TrackedObjects& objects, double resolution_m) {
+  for (std::size_t i = 0; i < objects_.size(); ++i)
+    Attempt([&] { objects_[i].WriteMesh(*objects[i], resolution_m, written_); });
+}
+
+bool Outputs::Finish() {
+  for (ObjectOutputs& object : objects_) object.Finish(written_);
+  if (recording_) {
+    const hal::Fault fault = recording_->Finish();
+    if (!fault.ok()) Fail(fault.message);
+    written_.push_back(record_path_ + ": " + std::to_string(recording_->frame_count()) + " frames");
+  }
+  for (std::string& line : telemetry_.Summary()) written_.push_back(std::move(line));
+  return complete_ && !telemetry_.AnyLost();
+}
+
+template <class Write>
+void Outputs::Attempt(Write&& write) {
+  try {
+    write();
+  } catch (const Failure& failure) {
+    Fail(failure.what());
+  }
+}
+
+void Outputs::Fail(const std::string& message) {
+  complete_ = false;
+  console_.Say(message);
+}
+
+}  // namespace disflow::apps

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "disflow/host/sequence_writer.h"
+#include "files/object_outputs.h"
+#include "links/telemetry_output.h"
+#include "objects/tracked_object.h"
+#include "program/console.h"
+#include "program/frame_result.h"
+#include "settings/options.h"
+
+namespace disflow::apps {
+
+/// Everything that a run writes and sends. An output that fails while running is said once; the
+/// others go on. Objects and results are in the order of Options::objects.
+class Outputs {
+ public:
+  /// Opens all that was asked for, so that a run never ends with nowhere to put its result.
+  /// @throws Failure kWrongUsage, kOutputFailed; files that existed are then unchanged.
+  /// @param camera_poses Where the links put the camera's poses; null if the camera stands.
+  Outputs(const Options& options, Console& console, hal::CameraPoseHistory* camera_poses);
+
+  /// @param frame The input frame; null if it could not be read.
+  void Deliver(std::span<const FrameResult> results, const DepthFrame* frame, std::int64_t age_ns,
+               std::int64_t now_ns);
+  /// The flow of the frame tracked last, for those who want it.
+  void WriteFlow(const TrackedObjects& objects, std::span<const FrameResult> results);
+  void WriteMeshes(const TrackedObjects& objects, double resolution_m);
+
+  /// Takes what has come in on the links.
+  void Receive(std::int64_t now_ns) noexcept { telemetry_.Receive(now_ns); }
+  /// Answers what was asked on the links, after a frame.
+  void Answer(const TrackedObjects& objects, std::span<const FrameResult> results) noexcept {
+    telemetry_.Answer(objects, results);
+  }
+  void KeepAlive(std::int64_t now_ns) noexcept { telemetry_.KeepAlive(now_ns); }
+
+  /// Closes all. @return false if something that was asked for is not complete.
+  [[nodiscard]] bool Finish();
+  /// @return One line per output, after Finish().
+  [[nodiscard]] const std::vector<std::string>& written() const noexcept { return written_; }
+
+ private:
+  void StartRecording(const std::string& folder);
+  [[nodiscard]] hal::Fault Record(const DepthFrame& frame);
+  template <class Write>
+  void Attempt(Write&& write);
+  void Fail(const std::string& message);
+
+  Console& console_;
+  TelemetryOutput telemetry_;
+  std::deque<ObjectOutputs> objects_;
+  std::optional<host::SequenceWriter> recording_;  ///< Empty again after a failure.
+  std::string record_path_;
+  std::vector<std::string> written_;
+  bool complete_ = true;
+};
+
+}  // namespace disflow::apps

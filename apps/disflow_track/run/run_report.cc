@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "run/run_report.h"
+
+#include <algorithm>
+
+#include "program/status_token.h"
+
+namespace disflow::apps {
+namespace {
+
+struct NamedCounter {
+  const char* name;
+  std::uint32_t Counters::*value;
+};
+
+constexpr std::array<NamedCounter, 13> kCounters = {{
+    {"pixels out of range", &Counters::pixels_out_of_range},
+    {"runs dropped", &Counters::runs_dropped},
+    {"blocks sparse", &Counters::blocks_sparse},
+    {"grazing", &Counters::blocks_grazing},
+    {"flying", &Counters::blocks_flying},
+    {"samples dropped", &Counters::samples_dropped},
+    {"residuals unmatched", &Counters::residuals_unmatched},
+    {"truncated", &Counters::residuals_truncated},
+    {"observations rejected", &Counters::observations_rejected},
+    {"out of bounds", &Counters::observations_out_of_bounds},
+    {"model samples refused", &Counters::samples_refused},
+    {"clusters evicted", &Counters::clusters_evicted},
+    {"edges refused", &Counters::edges_refused},
+}};
+
+template <class... Values>
+std::string Print(const char* format, Values... values) {
+  std::array<char, 256> text{};
+  (void)std::snprintf(text.data(), text.size(), format, values...);
+  return text.data();
+}
+
+/// What the sensor had to struggle with; empty if nothing.
+std::string FormatSensor(const hal::SensorCounters& sensor) {
+  std::string text;
+  if (sensor.dropped > 0) {
+    text += Print(" (%u in the driver, %u for a newer one)", sensor.gaps, sensor.skipped);
+  }
+  if (sensor.corrupt > 0) text += Print(", %u corrupt", sensor.corrupt);
+  if (sensor.restarts > 0) text += Print(", stream started anew %u times", sensor.restarts);
+  if (sensor.reconnects > 0) text += Print(", sensor came back %u times", sensor.reconnects);
+  return text;
+}
+
+}  // namespace
+
+std::string FormatTimes(const DurationHistogram& times) {
+  return Print("time per frame: median %.2f ms, 99 %% below %.2f ms", times.Percentile_ms(0.5),
+               times.Percentile_ms(0.99));
+}
+
+void RunReport::Add(const FrameResult& result) noexcept {
+  const Estimate& estimate = result.estimate;
+  ++frames_;
+  ++by_status_[static_cast<std::size_t>(estimate.status)];
+  if (estimate.status == Status::kOk) ++registered_;
+  total_.Add(result.total_ns);
+  totals_ = result.totals;
+  sensor_ = result.sensor;
+  state_ = estimate.state;
+  quality_ = estimate.quality;
+  restarts_ = estimate.reset_counter;
+}
+
+Status RunReport::most_frequent_fault() const noexcept {
+  const auto first = by_status_.begin() + 1;  // 0 is kOk
+  const auto most = std::max_element(first, by_status_.end());
+  return *most > 0 ? static_cast<Status>(most - by_status_.begin()) : Status::kOk;
+}
+
+std::string RunReport::Format(double seconds) const {
+  std::string text = Print("%lld frames in %.2f s (%.1f/s), %lld with a measured pose",
+                           static_cast<long long>(frames_), seconds,
+                           static_cast<double>(frames_) / std::max(seconds, 1e-9),
+                           static_cast<long long>(registered_));
+  for (std::size_t i = 1; i < by_status_.size(); ++i) {
+    if (by_status_[i] > 0) {
+      text += Print(", %lld %s", static_cast<long long>(by_status_[i]),
+                    StatusToken(static_cast<Status>(i)));
+    }
+  }
+  text += Print("\n  at the end: %s, quality %d, %d restarts, %u frames dropped", Name(state_),
+                quality_, restarts_, sensor_.dropped);
+  text += FormatSensor(sensor_);
+  text += "\n  " + FormatTimes(total_);
+  text += "\n  rejected:";
+  const std::size_t without_counters = text.size();
+  for (const NamedCounter& counter : kCounters) {
+    const std::uint32_t value = totals_.*counter.value;
+    if (value == 0) continue;
+    if (text.size() > without_counters) text += ",";
+    text += Print(" %s %u", counter.name, value);
+  }
+  if (text.size() == without_counters) text += " nothing";
+  return text;
+}
+
+}  // namespace disflow::apps

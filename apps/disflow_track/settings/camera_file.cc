@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "settings/camera_file.h"
+
+#include <toml++/toml.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "disflow/posix/camera/camera_address.h"
+#include "program/exit_status.h"
+
+namespace disflow::apps {
+namespace {
+
+using posix::CameraAddress;
+
+constexpr double kMax_px = 1e5;
+
+struct Key {
+  const char* name;
+  double min;
+  double max;
+  bool whole;
+  bool required;
+};
+
+constexpr std::array kKeys{
+    Key{"width", 1.0, CameraAddress::kMaxSide_px, true, true},
+    Key{"height", 1.0, CameraAddress::kMaxSide_px, true, true},
+    Key{"fx", 1.0, kMax_px, false, true},
+    Key{"fy", 1.0, kMax_px, false, true},
+    Key{"cx", -kMax_px, kMax_px, false, true},
+    Key{"cy", -kMax_px, kMax_px, false, true},
+    Key{"depth_scale", 1e-7, 1.0, false, false},
+};
+
+constexpr const char* kWhatIsNeeded =
+    "a camera file has width, height, fx, fy, cx, cy and perhaps depth_scale";
+
+[[noreturn]] void Refuse(const std::string& path, const toml::node* node, const std::string& text) {
+  const std::string at = node != nullptr ? ":" + std::to_string(node->source().begin.line) : "";
+  throw Failure(kWrongUsage, path + at + ": " + text);
+}
+
+toml::table Parse(const std::string& path) {
+  try {
+    return toml::parse_file(path);
+  } catch (const toml::parse_error& error) {
+    const auto line = error.source().begin.line;
+    const std::string at = line > 0 ? ":" + std::to_string(line) : "";
+    throw Failure(kWrongUsage, path + at + ": " + std::string(error.description()));
+  }
+}
+
+double ReadKey(const std::string& path, const toml::table& table, const Key& key) {
+  const toml::node* const node = table.get(key.name);
+  if (node == nullptr) {
+    if (!key.required) return 0.0;
+    Refuse(path, nullptr, std::string(key.name) + " is missing; " + kWhatIsNeeded);
+  }
+  const double value = node->value<double>().value_or(std::nan(""));
+  // Written so that NaN fails.
+  const bool in_range = value >= key.min && value <= key.max;
+  if (!in_range || (key.whole && !node->is_integer())) {
+    std::array<char, 128> text{};
+    (void)std::snprintf(text.data(), text.size(), "%s is not a %snumber from %g to %g", key.name,
+                        key.whole ? "whole " : "", key.min, key.max);
+    Refuse(path, node, text.data());
+  }
+  return value;
+}
+
+void RefuseUnknownKeys(const std::string& path, const toml::table& table) {
+  for (const auto& [name, node] : table) {
+    bool known = false;
+    for (const Key& key : kKeys) known = known || name.str() == key.name;
+    if (known) continue;
+    Refuse(path, &node, std::string(name.str()).append(" is not known; ") + kWhatIsNeeded);
+  }
+}
+
+}  // namespace
+
+posix::CameraDescription ReadCameraFile(const std::string& path) {
+  const toml::table table = Parse(path);
+  RefuseUnknownKeys(path, table);
+  std::array<double, kKeys.size()> values{};
+  for (std::size_t i = 0; i < kKeys.size(); ++i) values[i] = ReadKey(path, table, kKeys[i]);
+  posix::CameraDescription description;
+  description.width_px = static_cast<int>(values[0]);
+  description.height_px = static_cast<int>(values[1]);
+  description.camera = {static_cast<float>(values[2]), static_cast<float>(values[3]),
+                        static_cast<float>(values[4]), static_cast<float>(values[5])};
+  description.unit_m = static_cast<float>(values[6]);
+  return description;
+}
+
+}  // namespace disflow::apps

@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "settings/options.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <map>
+
+#include "disflow/hal/mavlink/telemetry.h"
+#include "disflow/host/open_sensor.h"
+#include "disflow/posix/camera/camera_address.h"
+#include "disflow/posix/mask_source.h"
+#include "disflow/surface_extractor.h"
+#include "program/exit_status.h"
+#include "settings/dds_address.h"
+#include "settings/setting_sources.h"
+
+namespace disflow::apps {
+namespace {
+
+constexpr const char* kDescription =
+    "Tracks and reconstructs unknown rigid objects in a stream of depth images.";
+
+constexpr const char* kLinksAndStatus =
+    "\n"
+    "Links, each carries MAVLink 2 (docs/wire-format.md):\n"
+    "  udp://HOST:PORT[?bind=PORT]\n"
+    "  serial:///dev/NAME[?baud=RATE]\n"
+    "or ROS 2 (docs/ros2.md):\n"
+    "  dds:domain=N[&name=NODE][&interface=NAME][&peer=HOST,…][&camera=FRAME][&world=FRAME]\n"
+    "      [&mask=TOPIC][&ros=humble|iron]\n"
+    "\n"
+    "Every input frame gives one row of the CSV; its column status is 'ok' or says why the pose "
+    "is\n"
+    "only a prediction. CSV and mesh share one object frame. SIGINT and SIGTERM end the run as if\n"
+    "the input had ended, a second one ends the program at once.\n"
+    "\n"
+    "Exit status: 0 done, 2 wrong usage or settings, 3 the sensor failed, a file of the sequence\n"
+    "could not be read or no frame could be tracked, 4 an output or link failed.";
+
+const std::map<std::string, ProfileName> kProfiles = {
+    {"micro", ProfileName::kMicro}, {"edge", ProfileName::kEdge}, {"dense", ProfileName::kDense}};
+const std::map<std::string, Rate> kRates = {
+    {"max", Rate::kMax}, {"realtime", Rate::kRealtime}, {"live", Rate::kLive}};
+const std::map<std::string, hal::mavlink::MavFrame> kWorlds = {
+    {"ned", hal::mavlink::MavFrame::kLocalNed},
+    {"enu", hal::mavlink::MavFrame::kLocalEnu},
+    {"frd", hal::mavlink::MavFrame::kLocalFrd},
+    {"flu", hal::mavlink::MavFrame::kLocalFlu}};
+
+void AddInput(CLI::App& app, Options& options, SettingSources& settings) {
+  app.add_option("--sensor", options.sensor, "Where depth images come from, see below")
+      ->type_name("URI");
+  app.add_flag("--list-sensors", options.list_sensors,
+               "Show all cameras with their formats, sizes and rates, and end");
+  app.add_option("--rate", options.rate,
+                 "max: as fast as possible; realtime: at the pace of the capture stamps; live: so, "
+                 "and what comes while the tracker is busy is lost [max; a camera is always live]")
+      ->transform(CLI::CheckedTransformer(kRates).description(""))
+      ->type_name("max|realtime|live");
+  app.add_option("--frames", options.frames, "Stop after this many frames [all]")
+      ->check(CLI::Validator(CLI::PositiveNumber).description(""))
+      ->type_name("N");
+  app.add_option("--profile", options.profile, "Memory and image size, see docs/memory.md [edge]")
+      ->transform(CLI::CheckedTransformer(kProfiles).description(""))
+      ->type_name("micro|edge|dense");
+  app.add_option(
+         "--config", settings.file,
+         "Settings, TOML; --print-config writes one. Its section [run] may hold any of these "
+         "options; the command line wins")
+      ->type_name("FILE");
+  app.add_option("--set", settings.assignments,
+                 "One setting, e.g. registration.iterations=10; wins over --config")
+      ->type_name("NAME=VALUE")
+      ->allow_extra_args(false);
+}
+
+void AddObject(CLI::App& app, Options& options, SettingSources& settings) {
+  app.add_option("--roi", settings.roi_px,
+                 "Only this part of the image is looked at; short for segmenter.roi_*")
+      ->delimiter(',')
+      ->expected(4)
+      ->type_name("X,Y,W,H");
+  app.add_option("--range", settings.range_m,
+                 "Only these distances are looked at; short for segmenter.*_range_m")
+      ->delimiter(',')
+      ->expected(2)
+      ->type_name("NEAR,FAR");
+  app.add_option("--seed", settings.seed_px,
+                 "A pixel on the object in the first frame; short for segmenter.seed_*")
+      ->delimiter(',')
+      ->expected(2)
+      ->type_name("U,V");
+  app.add_option("--object", settings.objects,
+                 "One of several objects, each told by the value of its pixels in the mask or by "
+                 "its own seed or region, e.g. name=box,label=1 or name=can,seed=320:180; may be "
+                 "repeated; in place of [[object]] in --config, see docs/several-objects.md")
+      ->type_name("KEY=VALUE,...")
+      ->allow_extra_args(false);
+  app.add_option("--threads", options.threads,
+                 "Threads that share out the objects [as many as objects and processors]")
+      ->check(CLI::Range(1, static_cast<int>(kMaxObjects)).description(""))
+      ->type_name("N");
+  app.add_option("--mask-stream", options.mask_stream,
+                 "Masks of another process: shared memory /NAME, file:PATH or v4l2:DEVICE, see "
+                 "docs/masks.md")
+      ->type_name("NAME");
+  app.add_option("--mask-age", options.mask_max_age_s,
+                 "A mask this much older than the frame is not used any more [0.1]")
+      ->check(CLI::Range(0.0, 10.0).description(""))
+      ->type_name("SECONDS");
+}
+
+void AddCameraPose(CLI::App& app, CameraPoseOptions& pose) {
+  app.add_option("--camera-pose", pose.system_id,
+                 "The camera is carried by this MAVLink system: its ODOMETRY, received on the "
+                 "links, gives the camera's pose, and the object's pose is sent in the world")
+      ->check(CLI::Range(1, 255).description(""))
+      ->type_name("SYSTEM");
+  app.add_option("--camera-in-body", pose.camera_in_body,
+                 "Where the optical frame sits in the body that the ODOMETRY describes, metres and "
+                 "a quaternion [at its origin, looking along its x axis: 0,0,0,0.5,0.5,0.5,0.5]")
+      ->delimiter(',')
+      ->expected(7)
+      ->type_name("X,Y,Z,QW,QX,QY,QZ");
+  app.add_option("--camera-world", pose.world,
+                 "World frame of that ODOMETRY and of what is sent [frd]")
+      ->transform(CLI::CheckedTransformer(kWorlds).description(""))
+      ->type_name("ned|enu|frd|flu");
+  app.add_flag("--camera-own-clock", pose.own_clock,
+               "That ODOMETRY is stamped on another clock than the depth images; the difference is "
+               "learnt from the times of arrival");
+}
+
+void AddRealtime(CLI::App& app, RealtimeOptions& realtime) {
+  app.add_option("--rt-priority", realtime.priority,
+                 "Run before all ordinary programs: SCHED_FIFO, 1 to 98")
+      ->check(CLI::Range(1, 98).description(""))
+      ->type_name("N");
+  app.add_option(
+         "--cpu", realtime.cpus,
+         "Processors of the tracking and of the capture thread, then of those that help with "
+         "several objects")
+      ->delimiter(',')
+      ->expected(1, 1 + static_cast<int>(kMaxObjects))
+      ->type_name("N[,N...]");
+  app.add_flag("--lock-memory", realtime.lock_memory, "Keep all memory in RAM");
+}
+
+void AddOutput(CLI::App& app, Options& options, CommonObjectOptions& objects) {
+  app.add_option("--link", options.links, "Send pose, twist and status there; may be repeated")
+      ->type_name("URI")
+      ->allow_extra_args(false);
+  app.add_option("--id", objects.first_index,
+                 "Object index on the links, added to the component id; of the first of several "
+                 "[0]")
+      ->check(CLI::Range(0, int{hal::mavlink::kMaxObjectIndex}).description(""))
+      ->type_name("N");
+  app.add_option("--csv", objects.files.csv,
+                 "Write the trajectory; with several objects a file each: run.csv of the object "
+                 "box is run-box.csv, and so with all that follows")
+      ->type_name("FILE");
+  app.add_option("--mesh", objects.files.mesh,
+                 "Write the surface at the end: binary PLY, coloured by uncertainty (dark = "
+                 "certain), std_m in metres; OBJ if the name ends in .obj")
+      ->type_name("FILE");
+  app.add_option("--mesh-resolution", options.mesh_resolution_m,
+                 "Edge of the mesh's sampling cubes in metres; at most 16 fit into a cell "
+                 "(field.cell_size_m) [a tenth of it]")
+      ->check(CLI::Validator(CLI::PositiveNumber).description(""))
+      ->type_name("METRES");
+  app.add_option("--mesh-picture", objects.files.mesh_picture,
+                 "Draw the surface at the end: PNG, from the first camera, right, behind and above")
+      ->type_name("FILE");
+  app.add_option("--flow", objects.files.flow,
+                 "Write the distance flow: a PLY per frame with the observed points, their "
+                 "distance to the model, its gradient and their velocity")
+      ->type_name("DIR");
+  app.add_option("--record", options.record, "Write the frames as a sequence for replay:DIR")
+      ->type_name("DIR");
+  app.add_flag("--headless", options.headless, "No live status line");
+  app.add_flag_callback(
+      "--no-timing", [&options] { options.timing = false; },
+      "Write 0 for all times, so that two runs give the same bytes");
+  app.add_flag("--print-config", options.print_config, "Print all settings as TOML and end");
+  app.add_flag("--print-settings-table", options.print_settings_table,
+               "Print docs/settings.md and end");
+}
+
+/// Takes the link that is no MAVLink out of the list of those that are.
+void SplitLinks(Options& options) {
+  const auto dds = std::stable_partition(options.links.begin(), options.links.end(),
+                                         [](const auto& uri) { return !IsDdsAddress(uri); });
+  if (options.links.end() - dds > 1) {
+    throw Failure(kWrongUsage, "one --link dds: is enough: it shows all objects");
+  }
+  if (dds == options.links.end()) return;
+  options.dds_link = *dds;
+  const DdsAddress address = ParseDdsAddress(options.dds_link);
+  if (!address.mask_topic.empty() && !options.mask_stream.empty()) {
+    throw Failure(kWrongUsage, "masks come from --mask-stream or from --link dds:mask=, not both");
+  }
+  if (!address.world_frame.empty() && options.camera_pose.system_id != 0) {
+    throw Failure(kWrongUsage,
+                  "the camera's pose comes by --camera-pose or by --link dds:world=, not both");
+  }
+  options.links.erase(dds);
+}
+
+void CheckCameraPose(const Options& options) {
+  const CameraPoseOptions& pose = options.camera_pose;
+  if (pose.system_id == 0) return;
+  if (options.links.empty()) {
+    throw Failure(kWrongUsage, "--camera-pose needs a --link on which the ODOMETRY comes in");
+  }
+  if (pose.system_id == hal::mavlink::TelemetryOptions{}.system_id) {
+    throw Failure(kWrongUsage, "--camera-pose " + std::to_string(pose.system_id) +
+                                   " is this program's own system id");
+  }
+  if (pose.camera_in_body.empty()) return;
+  double norm = 0.0;
+  bool finite = true;
+  for (std::size_t i = 0; i < pose.camera_in_body.size(); ++i) {
+    const double value = pose.camera_in_body[i];
+    finite = finite && std::isfinite(value);
+    if (i >= 3) norm += value * value;
+  }
+  if (!finite || std::abs(norm - 1.0) > 0.01) {
+    throw Failure(kWrongUsage,
+                  "--camera-in-body: the last four numbers are no unit quaternion (w x y z)");
+  }
+}
+
+void CheckMaskStream(const Options& options) {
+  if (options.mask_stream.empty()) return;
+  const hal::Fault fault = posix::CheckMaskName(options.mask_stream);
+  if (!fault.ok()) throw Failure(kWrongUsage, fault.message);
+}
+
+void CheckResolution(const Options& options) {
+  if (options.mesh_resolution_m == 0.0) return;
+  for (const ObjectOptions& object : options.objects) {
+    const double cell_m = static_cast<double>(object.config.field.cell_size_m);
+    const double finest_m = cell_m / kMaxStepsPerCell;
+    if (options.mesh_resolution_m >= 0.9999 * finest_m) continue;
+    throw Failure(kWrongUsage, "--mesh-resolution is too fine: with field.cell_size_m = " +
+                                   std::to_string(cell_m) + " it is at least " +
+                                   std::to_string(finest_m));
+  }
+}
+
+}  // namespace
+
+Options ParseCommandLine(int argc, char** argv, bool& exit_now) {
+  Options options;
+  SettingSources settings;
+  CLI::App app(kDescription, "disflow_track");
+  app.footer(std::string("Sensors:\n") + posix::kCameraAddressHelp + host::SensorHelp() + kLinksAndStatus);
+  app.set_version_flag("--version", "disflow_track " DISFLOW_VERSION " (" DISFLOW_BUILD ")");
+  AddInput(app, options, settings);
+  AddObject(app, options, settings);
+  AddCameraPose(app, options.camera_pose);
+  AddRealtime(app, options.realtime);
+  AddOutput(app, options, settings.common);
+  AddViewOptions(app, options.view);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& answer) {
+    (void)app.exit(answer);
+    exit_now = true;
+    return options;
+  } catch (const CLI::ParseError& error) {
+    throw Failure(kWrongUsage, std::string(error.what()) + "; see disflow_track --help");
+  }
+  ReadSettings(app, settings, options);
+  CheckResolution(options);
+  SplitLinks(options);
+  CheckCameraPose(options);
+  CheckMaskStream(options);
+  if (options.sensor.empty() && !options.list_sensors && !options.print_config &&
+      !options.print_settings_table) {
+    throw Failure(kWrongUsage, "--sensor is required; see disflow_track --help");
+  }
+  return options;
+}
+
+}  // namespace disflow::apps

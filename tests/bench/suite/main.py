@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Measures the tracker on simulated sequences and writes the tables of the documentation.
+
+accuracy: tracks and judges the whole table, checks every figure against its goal.
+ablation: switches one part of the method off at a time.
+objects: two and four objects that pass in front of each other, and the time with one and two threads.
+"""
+
+import argparse
+import pathlib
+import sys
+import time
+
+import ablation
+import accuracy
+import objects
+import pages
+import plots
+import runs
+import sequences
+
+ROOT = pathlib.Path(__file__).resolve().parents[3]
+
+
+def parse(words):
+    parser = argparse.ArgumentParser(prog="./dev bench", description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("what", choices=tuple(MEASURES))
+    parser.add_argument("--bin", type=pathlib.Path, default=ROOT / "build/release/bin", help="folder of the programs")
+    parser.add_argument("--out", type=pathlib.Path, help="folder for what is measured [build/WHAT]")
+    parser.add_argument("--docs", type=pathlib.Path, default=ROOT / "docs", help="folder of the pages [docs]")
+    parser.add_argument("--seeds", type=int, help="seeds 1 to N [accuracy: 5, others: 3]")
+    parser.add_argument("--quick", action="store_true", help="seed 1 alone; the pages stay as they are")
+    parser.add_argument("--only", action="append", metavar="TEXT", default=[],
+                        help="only rows whose name contains this, may be repeated; the pages stay as they are")
+    options = parser.parse_args(words)
+    if options.seeds is not None and options.seeds < 1:
+        parser.error("--seeds wants at least 1")
+    return options
+
+
+def measure_accuracy(options, seeds, whole):
+    rows = [row for row in sequences.ROWS if whole or not options.only or any(text in row.name for text in options.only)]
+    # A row that is held against another one needs it.
+    wanted = {row.name for row in rows} | {row.like for row in rows}
+    rows = [row for row in sequences.ROWS if row.name in wanted]
+    programs = runs.Programs(options.bin, options.out)
+    results = accuracy.measure(programs, rows, seeds)
+    images = options.docs / "images" if whole else options.out / "images"
+    pictures = plots.draw(programs, rows, seeds, images)
+    text = accuracy.page(results, [(f"images/{file}", title) for file, title in pictures])
+    accuracy.write_json(options.out / "results.json", results)
+    if whole:
+        accuracy.write_json(options.docs / "results.json", results)
+        pages.replace_part(options.docs / "results.md", "accuracy", text)
+    print(text)
+    print("\nMissed:" if accuracy.missed_goals(results) else "\nNothing missed.")
+    for line in accuracy.missed_goals(results):
+        print("  " + line)
+    print(accuracy.summary_line(results))
+
+
+def measure_ablation(options, seeds, whole):
+    variants = [v for v in ablation.VARIANTS if whole or not options.only or any(text in v.name for text in options.only)]
+    text = ablation.measure(runs.Programs(options.bin, options.out), variants, seeds)
+    if whole:
+        pages.replace_part(options.docs / "method.md", "ablation", text)
+    print(text)
+
+
+def measure_objects(options, seeds, whole):
+    text = objects.measure(runs.Programs(options.bin, options.out), seeds)
+    if whole:
+        pages.replace_part(options.docs / "several-objects.md", "objects", text)
+    print(text)
+
+
+MEASURES = {"accuracy": measure_accuracy, "ablation": measure_ablation, "objects": measure_objects}
+
+
+def main(words):
+    options = parse(words)
+    is_accuracy = options.what == "accuracy"
+    options.out = options.out or ROOT / "build" / options.what
+    seeds = list(range(1, 1 + (1 if options.quick else options.seeds or (5 if is_accuracy else 3))))
+    # What is measured only in part does not belong on a page.
+    whole = not options.quick and not options.only
+    begin = time.monotonic()
+    try:
+        MEASURES[options.what](options, seeds, whole)
+    except (RuntimeError, OSError) as error:
+        print(f"bench {options.what}: {error}", file=sys.stderr)
+        return 1
+    print(f"{time.monotonic() - begin:.0f} s; everything is in {options.out}", file=sys.stderr)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
