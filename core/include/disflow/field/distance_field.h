@@ -10,6 +10,27 @@
 
 namespace disflow {
 
+/// What registration needs to know of the field at an observed point.
+struct FieldMatch {
+  bool found = false;
+  bool normal_mismatch = false;     ///< Surface is near, but none whose normal agrees.
+  float distance_m = 0.0F;          ///< d
+  Vec3 gradient = Vec3::Zero();     ///< grad d
+  float variance_m2 = 0.0F;         ///< V[d]
+  float beyond_variance_m2 = 0.0F;  ///< Its part that comes from the distance to the samples.
+  float generation = 0.0F;          ///< Of the piece of surface, see Cluster.
+  Handle cluster = kNoHandle;       ///< Where it was found, for DistanceField::Reuse().
+};
+
+/// What became of an observation that was offered to the model.
+enum class Fusion : std::uint8_t {
+  kAdded,     ///< As a new sample.
+  kMerged,    ///< Averaged into the sample near it.
+  kFrozen,    ///< The sample near it was seen often enough.
+  kRejected,  ///< Not usable, or too far from known surface.
+  kRefused,   ///< No room.
+};
+
 /// The object's surface as a signed distance field in the object frame: local Gaussian processes in
 /// an octree (section IV). Outside is positive.
 template <class Limits>
@@ -18,19 +39,8 @@ class DistanceField {
   using Store = ClusterStore<Limits>;
   using ClusterType = typename Store::ClusterType;
 
-  /// What registration needs to know of the field at an observed point.
-  struct Match {
-    bool found = false;
-    bool normal_mismatch = false;     ///< Surface is near, but none whose normal agrees.
-    float distance_m = 0.0F;          ///< d
-    Vec3 gradient = Vec3::Zero();     ///< grad d
-    float variance_m2 = 0.0F;         ///< V[d]
-    float beyond_variance_m2 = 0.0F;  ///< Its part that comes from the distance to the samples.
-    float generation = 0.0F;          ///< Of the piece of surface, see Cluster.
-    Handle cluster = kNoHandle;       ///< Where it was found, for Reuse().
-  };
-
-  enum class Fusion : std::uint8_t { kAdded, kMerged, kFrozen, kRejected, kRefused };
+  using Match = FieldMatch;
+  using Fusion = disflow::Fusion;
 
   void Start(const FieldConfig& config) noexcept {
     config_ = config;
