@@ -7,6 +7,7 @@
 #include "disflow/config.h"
 #include "disflow/depth/surface_sample.h"
 #include "disflow/field/cluster_store.h"
+#include "disflow/field/gp_workspace.h"
 
 namespace disflow {
 
@@ -54,7 +55,6 @@ class DistanceField {
   void SetGeneration(float generation) noexcept { generation_ = generation; }
 
   [[nodiscard]] const Store& store() const noexcept { return store_; }
-  [[nodiscard]] const GpHyperparameters& hyperparameters() const noexcept { return hyper_; }
   [[nodiscard]] const FieldConfig& config() const noexcept { return config_; }
   [[nodiscard]] bool empty() const noexcept { return store_.size() == 0; }
   [[nodiscard]] const Vec3& bounds_min_m() const noexcept { return bounds_min_m_; }
@@ -189,8 +189,7 @@ class DistanceField {
     // Not trained yet: the prior alone, whose mean is the local plane m(x) = n^T (x - c).
     match.gradient = cluster.mean_normal;
     match.distance_m = cluster.mean_normal.dot(x_m - cluster.centroid_m);
-    const float prior_std_m = config_.prior_gradient_std * 0.5F * config_.cell_size_m;
-    match.variance_m2 = prior_std_m * prior_std_m;
+    match.variance_m2 = SlopeVariance(hyper_.prior_gradient_std, 0.5F * config_.cell_size_m);
   }
 
   /// The sample into which an observation is to be averaged, by its owner and its index there.
