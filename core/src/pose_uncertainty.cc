@@ -81,14 +81,6 @@ Mat6 WithDrift(const Mat6& covariance, float pieces, const RegistrationConfig& c
   return result;
 }
 
-Mat6 Moved(const Mat6& covariance, const Mat3& rotation, const Vec3& to_point_m) noexcept {
-  Mat6 jacobian = Mat6::Zero();
-  jacobian.topLeftCorner<3, 3>() = rotation;
-  jacobian.topRightCorner<3, 3>() = -rotation * Skew(to_point_m);
-  jacobian.bottomRightCorner<3, 3>() = rotation;
-  return jacobian * covariance * jacobian.transpose();
-}
-
 Mat3 OffTangent(const Mat6& covariance) noexcept {
   constexpr float kTiny = 1e-12F;
   const Mat3 displacement = covariance.topLeftCorner<3, 3>();

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "disflow/geometry/covariance.h"
 #include "disflow/geometry/symmetric_solver.h"
 
 namespace disflow {
@@ -38,7 +39,8 @@ float StepSeconds(StampNs from_ns, StampNs to_ns) noexcept {
   return std::clamp(Seconds(to_ns - from_ns), 0.0F, kMaxStep_s);
 }
 
-PoseCameraFromObject Moved(const PoseCameraFromObject& T_co, const Vec6& displacement) noexcept {
+PoseCameraFromObject Displaced(const PoseCameraFromObject& T_co,
+                               const Vec6& displacement) noexcept {
   // Position and rotation are moved apart: the twist is that of the object's origin, not of the
   // camera's.
   const Vec3 rotation_vector = displacement.tail<3>();
@@ -72,7 +74,7 @@ void TwistFilter::Start(const TwistFilterConfig& config, StampNs stamp_ns,
 }
 
 PoseCameraFromObject TwistFilter::Extrapolate(StampNs stamp_ns) const noexcept {
-  return Moved(T_co_, StepSeconds(stamp_ns_, stamp_ns) * twist_);
+  return Displaced(T_co_, StepSeconds(stamp_ns_, stamp_ns) * twist_);
 }
 
 void TwistFilter::Predict(StampNs stamp_ns) noexcept {
@@ -80,7 +82,7 @@ void TwistFilter::Predict(StampNs stamp_ns) noexcept {
   const float half_dt2 = 0.5F * dt * dt;
   last_step_s_ = dt;
   Turn(ExpSo3(Vec3(dt * twist_.tail<3>())));
-  T_co_ = Moved(T_co_, dt * twist_ + half_dt2 * acceleration_);
+  T_co_ = Displaced(T_co_, dt * twist_ + half_dt2 * acceleration_);
   twist_ += dt * acceleration_;
   stamp_ns_ = stamp_ns;
 
@@ -100,11 +102,8 @@ void TwistFilter::Predict(StampNs stamp_ns) noexcept {
 
 /// What is not known of a pose moves with the object: the axis of a can stays the can's.
 void TwistFilter::Turn(const Mat3& rotation) noexcept {
-  Mat6 turn = Mat6::Zero();
-  turn.topLeftCorner<3, 3>() = rotation;
-  turn.bottomRightCorner<3, 3>() = rotation;
   for (auto& row : covariance_) {
-    for (Mat6& block : row) block = turn * block * turn.transpose();
+    for (Mat6& block : row) block = RotatedCovariance(block, rotation);
   }
 }
 
@@ -151,7 +150,7 @@ void TwistFilter::Update(const PoseCameraFromObject& T_co, const Mat6& pose_cova
   for (std::size_t i = 0; i < kBlocks; ++i) {
     gain[i] = solver.Solve(Mat6(covariance_[i][0].transpose())).transpose();
   }
-  T_co_ = Moved(T_co_, gain[0] * innovation);
+  T_co_ = Displaced(T_co_, gain[0] * innovation);
   twist_ += gain[1] * innovation;
   acceleration_ += gain[2] * innovation;
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "disflow/field/local_gp.h"
+#include "disflow/field/gp_workspace.h"
 
 /// @file
 /// Cost of the local GP: what one retrained cluster, one registration residual and one variance
@@ -36,7 +36,7 @@ template <int N>
 struct Trained {
   GpWorkspace<N> workspace;
   LocalGp<N> gp;
-  bool ok = Train<N>(SpherePatch(N), kCenter_m, Vec3::UnitZ(), kHyper, workspace, gp);
+  bool ok = workspace.Train(SpherePatch(N), kCenter_m, Vec3::UnitZ(), kHyper, gp);
 };
 
 template <int N>
@@ -45,7 +45,7 @@ void BM_Train(benchmark::State& state) {
   Trained<N> trained;
   for (auto _ : state) {
     benchmark::DoNotOptimize(
-        Train<N>(samples, kCenter_m, Vec3::UnitZ(), kHyper, trained.workspace, trained.gp));
+        trained.workspace.Train(samples, kCenter_m, Vec3::UnitZ(), kHyper, trained.gp));
     benchmark::ClobberMemory();
   }
 }
@@ -68,10 +68,10 @@ void BM_Mean(benchmark::State& state) {
 template <int N>
 void BM_Covariance(benchmark::State& state) {
   Trained<N> trained;
-  if (!Factorise(trained.gp, kHyper, trained.workspace)) state.SkipWithError("not trained");
+  if (!trained.workspace.Factorise(trained.gp)) state.SkipWithError("not trained");
   const Vec3 x_m = kCenter_m + Vec3(1e-3F, 2e-3F, 3e-3F);
   for (auto _ : state) {
-    benchmark::DoNotOptimize(Covariance(trained.gp, kHyper, trained.workspace, x_m));
+    benchmark::DoNotOptimize(trained.workspace.Covariance(trained.gp, x_m));
   }
 }
 

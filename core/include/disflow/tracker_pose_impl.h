@@ -3,6 +3,7 @@
 
 #include "disflow/field/fast_math.h"
 #include "disflow/flow/weak_direction.h"
+#include "disflow/geometry/covariance.h"
 #include "disflow/tracker.h"
 
 /// @file
@@ -142,7 +143,7 @@ typename Tracker<Limits>::PoseCovariance Tracker<Limits>::CovarianceOf(
   const Mat3 R_co = aligned.T_oc.rotation().transpose();
   const Vec3 to_origin_m = -aligned.center_m;
   const auto in_camera = [&](const Mat6& covariance_o) {
-    return Moved(covariance_o, R_co, to_origin_m);
+    return CovarianceAtPoint(covariance_o, R_co, to_origin_m);
   };
   const float since_s = Seconds(stamp_ns - observed_ns_);
   const float unobserved_s = std::min(since_s, kLongest_s);

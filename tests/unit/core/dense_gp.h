@@ -5,7 +5,7 @@
 #include <cmath>
 #include <span>
 
-#include "disflow/field/local_gp.h"
+#include "disflow/field/gp_workspace.h"
 
 /// @file
 /// The Gaussian process of section IV as it stands in the paper: dense, in double precision, in

@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "disflow/field/local_gp.h"
+#include "disflow/field/gp_workspace.h"
 
 /// @file
 /// What one cluster of the tracker holds: a handful of samples on a small piece of surface.
@@ -30,7 +30,7 @@ struct Patch {
 
   [[nodiscard]] bool TrainInto(Workspace& workspace, Gp& gp,
                                const GpHyperparameters& hyper = kHyper) const {
-    return Train<kSamples>(samples, center_m, normal, hyper, workspace, gp);
+    return workspace.Train(samples, center_m, normal, hyper, gp);
   }
 };
 

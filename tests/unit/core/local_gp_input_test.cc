@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "disflow/field/local_gp.h"
+#include "disflow/field/gp_workspace.h"
 #include "gp_patch.h"
 
 /// @file
@@ -23,7 +23,7 @@ void ExpectFinite(const Gp& gp, const Workspace& workspace, const Patch& patch) 
     const Prediction mean = Predict(gp, x_m);
     EXPECT_TRUE(std::isfinite(mean.distance_m));
     EXPECT_TRUE(mean.gradient.allFinite());
-    EXPECT_TRUE(Covariance(gp, kHyper, workspace, x_m).allFinite());
+    EXPECT_TRUE(workspace.Covariance(gp, x_m).allFinite());
   }
 }
 
@@ -32,7 +32,7 @@ TEST(LocalGpInput, ZeroedMemory_IsUntrained) {
   EXPECT_FALSE(gp.trained());
   EXPECT_EQ(gp.size(), 0);
   Workspace workspace;
-  EXPECT_FALSE(Factorise(gp, kHyper, workspace));
+  EXPECT_FALSE(workspace.Factorise(gp));
 }
 
 TEST(LocalGpInput, NoSamples_AreRefusedAndForgetTheOld) {
@@ -43,7 +43,7 @@ TEST(LocalGpInput, NoSamples_AreRefusedAndForgetTheOld) {
   patch.samples.clear();
   EXPECT_FALSE(patch.TrainInto(workspace, gp));
   EXPECT_FALSE(gp.trained());
-  EXPECT_FALSE(Factorise(gp, kHyper, workspace));
+  EXPECT_FALSE(workspace.Factorise(gp));
 }
 
 TEST(LocalGpInput, MoreSamplesThanFit_AreRefused) {

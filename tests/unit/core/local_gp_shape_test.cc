@@ -7,7 +7,7 @@
 #include <random>
 #include <string>
 
-#include "disflow/field/local_gp.h"
+#include "disflow/field/gp_workspace.h"
 #include "gp_patch.h"
 
 /// @file

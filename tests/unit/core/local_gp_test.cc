@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "disflow/field/local_gp.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
@@ -12,6 +10,7 @@
 #include <type_traits>
 
 #include "dense_gp.h"
+#include "disflow/field/gp_workspace.h"
 #include "disflow/geometry/transform.h"
 #include "gp_patch.h"
 
@@ -49,7 +48,7 @@ class AgainstDenseGp : public ::testing::TestWithParam<Setting> {
       const Patch patch = RandomPatch(seed, GetParam().count);
       Gp gp;
       ASSERT_TRUE(patch.TrainInto(workspace_, gp, hyper_));
-      ASSERT_TRUE(Factorise(gp, hyper_, workspace_));
+      ASSERT_TRUE(workspace_.Factorise(gp));
       check(patch, gp, DenseGp(patch.samples, patch.center_m, patch.normal, hyper_));
     }
   }
@@ -73,7 +72,7 @@ TEST_P(AgainstDenseGp, Mean_IsTheSame) {
 TEST_P(AgainstDenseGp, Covariance_IsTheSame) {
   ForEachPatch([this](const Patch& patch, const Gp& gp, const DenseGp& dense) {
     for (const Vec3& x_m : QueryPoints(patch)) {
-      const Mat4d covariance = Covariance(gp, hyper_, workspace_, x_m).cast<double>();
+      const Mat4d covariance = workspace_.Covariance(gp, x_m).cast<double>();
       const Mat4d exact = dense.Covariance(x_m.cast<double>());
       // Each element against the standard deviations that belong to it: no unit matters.
       for (int i = 0; i < 4; ++i) {
@@ -134,7 +133,7 @@ TEST(LocalGp, Covariance_IsSymmetricAndPositiveSemidefinite) {
     Gp gp;
     ASSERT_TRUE(patch.TrainInto(workspace, gp));
     for (const Vec3& x_m : QueryPoints(patch)) {
-      const Mat4 covariance = Covariance(gp, kHyper, workspace, x_m);
+      const Mat4 covariance = workspace.Covariance(gp, x_m);
       EXPECT_EQ(covariance, Mat4(covariance.transpose()));
       // Scaled to unit diagonal, so that metres and slopes weigh the same.
       const Vec4 inverse_std = covariance.diagonal().cwiseSqrt().cwiseInverse();
@@ -154,7 +153,7 @@ TEST(LocalGp, MoreSamples_NeverMakeLessCertain) {
       some.samples.resize(count);
       Gp gp;
       ASSERT_TRUE(some.TrainInto(workspace, gp));
-      const Mat4 after = Covariance(gp, kHyper, workspace, x_m);
+      const Mat4 after = workspace.Covariance(gp, x_m);
       for (int i = 0; i < 4; ++i)
         EXPECT_LE(after(i, i), before(i, i) * (1.0F + 1e-3F)) << count << " samples, element " << i;
       before = after;
@@ -168,13 +167,13 @@ TEST(LocalGp, Variance_IsBelowTheNoiseAtASampleAndGrowsAwayFromIt) {
   Gp gp;
   ASSERT_TRUE(patch.TrainInto(workspace, gp));
   for (const auto& sample : patch.samples)
-    EXPECT_LT(Covariance(gp, kHyper, workspace, sample.position_m)(0, 0), kValueVariance_m2);
+    EXPECT_LT(workspace.Covariance(gp, sample.position_m)(0, 0), kValueVariance_m2);
   for (const Vec3& direction : {Vec3(Vec3::UnitX()), Vec3(Vec3::UnitZ()), Vec3(-Vec3::UnitZ()),
                                 Vec3(Vec3(1.0F, -1.0F, 1.0F).normalized())}) {
     float before = 0.0F;
     for (const float away_m : {0.0F, 0.02F, 0.03F, 0.05F, 0.08F, 0.15F, 0.3F}) {
       const Vec3 x_m = patch.center_m + away_m * direction;
-      const float variance = Covariance(gp, kHyper, workspace, x_m)(0, 0);
+      const float variance = workspace.Covariance(gp, x_m)(0, 0);
       EXPECT_GT(variance, before) << away_m;
       before = variance;
     }
@@ -190,7 +189,7 @@ TEST(LocalGp, FarAway_OnlyThePriorIsLeft) {
   const Prediction mean = Predict(gp, x_m);
   EXPECT_NEAR(mean.distance_m, patch.normal.dot(x_m - patch.center_m), 1e-6F);
   EXPECT_LT((mean.gradient - patch.normal).norm(), 1e-6F);
-  const Mat4 covariance = Covariance(gp, kHyper, workspace, x_m);
+  const Mat4 covariance = workspace.Covariance(gp, x_m);
   const float slope_variance = kHyper.prior_gradient_std * kHyper.prior_gradient_std;
   const float value_std_m = kHyper.prior_gradient_std * kHyper.length_scale_m / std::sqrt(3.0F);
   EXPECT_NEAR(covariance(0, 0), value_std_m * value_std_m, 1e-6F * value_std_m * value_std_m);
@@ -221,7 +220,7 @@ TEST(LocalGp, ContentOfTheWorkspace_DoesNotMatter) {
   ASSERT_TRUE(patch.TrainInto(dirty, b));
   ExpectSameBits(a, b, QueryPoints(patch));
   for (const Vec3& x_m : QueryPoints(patch))
-    EXPECT_EQ(Covariance(a, kHyper, clean, x_m), Covariance(b, kHyper, dirty, x_m));
+    EXPECT_EQ(clean.Covariance(a, x_m), dirty.Covariance(b, x_m));
 }
 
 TEST(LocalGp, TrainedAgainOnFewer_ForgetsTheRest) {
@@ -241,11 +240,11 @@ TEST(LocalGp, FactorisedAgain_GivesTheSameCovariance) {
   Workspace workspace;
   Gp gp;
   ASSERT_TRUE(patch.TrainInto(workspace, gp));
-  const Mat4 before = Covariance(gp, kHyper, workspace, patch.center_m);
+  const Mat4 before = workspace.Covariance(gp, patch.center_m);
   Gp other;
   ASSERT_TRUE(RandomPatch(7).TrainInto(workspace, other));
-  ASSERT_TRUE(Factorise(gp, kHyper, workspace));
-  EXPECT_EQ(Covariance(gp, kHyper, workspace, patch.center_m), before);
+  ASSERT_TRUE(workspace.Factorise(gp));
+  EXPECT_EQ(workspace.Covariance(gp, patch.center_m), before);
   EXPECT_EQ(gp.SurfaceVariance(), before(0, 0));
 }
 

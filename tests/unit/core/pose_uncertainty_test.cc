@@ -8,6 +8,7 @@
 #include <random>
 
 #include "disflow/flow/normal_equations.h"
+#include "disflow/geometry/covariance.h"
 
 namespace disflow {
 namespace {
@@ -115,15 +116,6 @@ TEST(Drift, GrowsWithThePiecesAndInAllDirections) {
   }
 }
 
-TEST(Moved, CovarianceOfATurn_ShowsAtTheEndOfTheLever) {
-  Mat6 turn = Mat6::Zero();
-  turn(5, 5) = 0.01F;  // 0.1 rad about z
-  const Mat6 moved = Moved(turn, Mat3::Identity(), Vec3(0.2F, 0.0F, 0.0F));
-  EXPECT_NEAR(Std(moved, 1), 0.02F, 1e-6F);
-  EXPECT_NEAR(moved(1, 5), 0.02F * 0.1F, 1e-7F);
-  EXPECT_NEAR(moved(0, 0), 0.0F, 1e-9F);
-}
-
 // A point on a circle, turned by a normally distributed angle: its true mean square distance from
 // the tangent, by sampling, is what the covariance says or less.
 TEST(OffTangent, CoversWhereATurnedPointIs) {
@@ -138,7 +130,7 @@ TEST(OffTangent, CoversWhereATurnedPointIs) {
     }
     Mat6 turn = Mat6::Zero();
     turn(5, 5) = angle_std * angle_std;
-    const Mat6 at_point = Moved(turn, Mat3::Identity(), Vec3(kRadius_m, 0.0F, 0.0F));
+    const Mat6 at_point = CovarianceAtPoint(turn, Mat3::Identity(), Vec3(kRadius_m, 0.0F, 0.0F));
     const Mat3 off_m2 = OffTangent(at_point);
     EXPECT_GT(3.1F * off_m2(0, 0), inward2_m2) << angle_std;  // E[theta^4] = 3 sigma^4
     EXPECT_LE(off_m2(0, 0), 1.01F * kRadius_m * kRadius_m) << angle_std;

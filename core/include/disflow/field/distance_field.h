@@ -7,8 +7,30 @@
 #include "disflow/config.h"
 #include "disflow/depth/surface_sample.h"
 #include "disflow/field/cluster_store.h"
+#include "disflow/field/gp_workspace.h"
 
 namespace disflow {
+
+/// What registration needs to know of the field at an observed point.
+struct FieldMatch {
+  bool found = false;
+  bool normal_mismatch = false;     ///< Surface is near, but none whose normal agrees.
+  float distance_m = 0.0F;          ///< d
+  Vec3 gradient = Vec3::Zero();     ///< grad d
+  float variance_m2 = 0.0F;         ///< V[d]
+  float beyond_variance_m2 = 0.0F;  ///< Its part that comes from the distance to the samples.
+  float generation = 0.0F;          ///< Of the piece of surface, see Cluster.
+  Handle cluster = kNoHandle;       ///< Where it was found, for DistanceField::Reuse().
+};
+
+/// What became of an observation that was offered to the model.
+enum class Fusion : std::uint8_t {
+  kAdded,     ///< As a new sample.
+  kMerged,    ///< Averaged into the sample near it.
+  kFrozen,    ///< The sample near it was seen often enough.
+  kRejected,  ///< Not usable, or too far from known surface.
+  kRefused,   ///< No room.
+};
 
 /// The object's surface as a signed distance field in the object frame: local Gaussian processes in
 /// an octree (section IV). Outside is positive.
@@ -18,19 +40,8 @@ class DistanceField {
   using Store = ClusterStore<Limits>;
   using ClusterType = typename Store::ClusterType;
 
-  /// What registration needs to know of the field at an observed point.
-  struct Match {
-    bool found = false;
-    bool normal_mismatch = false;     ///< Surface is near, but none whose normal agrees.
-    float distance_m = 0.0F;          ///< d
-    Vec3 gradient = Vec3::Zero();     ///< grad d
-    float variance_m2 = 0.0F;         ///< V[d]
-    float beyond_variance_m2 = 0.0F;  ///< Its part that comes from the distance to the samples.
-    float generation = 0.0F;          ///< Of the piece of surface, see Cluster.
-    Handle cluster = kNoHandle;       ///< Where it was found, for Reuse().
-  };
-
-  enum class Fusion : std::uint8_t { kAdded, kMerged, kFrozen, kRejected, kRefused };
+  using Match = FieldMatch;
+  using Fusion = disflow::Fusion;
 
   void Start(const FieldConfig& config) noexcept {
     config_ = config;
@@ -44,7 +55,6 @@ class DistanceField {
   void SetGeneration(float generation) noexcept { generation_ = generation; }
 
   [[nodiscard]] const Store& store() const noexcept { return store_; }
-  [[nodiscard]] const GpHyperparameters& hyperparameters() const noexcept { return hyper_; }
   [[nodiscard]] const FieldConfig& config() const noexcept { return config_; }
   [[nodiscard]] bool empty() const noexcept { return store_.size() == 0; }
   [[nodiscard]] const Vec3& bounds_min_m() const noexcept { return bounds_min_m_; }
@@ -179,8 +189,7 @@ class DistanceField {
     // Not trained yet: the prior alone, whose mean is the local plane m(x) = n^T (x - c).
     match.gradient = cluster.mean_normal;
     match.distance_m = cluster.mean_normal.dot(x_m - cluster.centroid_m);
-    const float prior_std_m = config_.prior_gradient_std * 0.5F * config_.cell_size_m;
-    match.variance_m2 = prior_std_m * prior_std_m;
+    match.variance_m2 = SlopeVariance(hyper_.prior_gradient_std, 0.5F * config_.cell_size_m);
   }
 
   /// The sample into which an observation is to be averaged, by its owner and its index there.

@@ -116,7 +116,7 @@ void DistanceField<Limits>::TrainCluster(ClusterType& cluster) noexcept {
                                                   static_cast<std::size_t>(count));
   // Not positive definite only for contradicting duplicates; the cluster then falls back to its
   // plane.
-  if (!Train(samples, cluster.centroid_m, cluster.mean_normal, hyper_, workspace_, cluster.gp))
+  if (!workspace_.Train(samples, cluster.centroid_m, cluster.mean_normal, hyper_, cluster.gp))
     cluster.gp.Clear();
 }
 

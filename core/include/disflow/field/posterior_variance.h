@@ -46,15 +46,14 @@ class PosteriorVariance {
 
   /// What the prior's uncertain slope makes of a distance over which nothing was seen.
   [[nodiscard]] float OfSlope(float length_m) const noexcept {
-    const float std_m = field_.config().prior_gradient_std * length_m;
-    return std_m * std_m;
+    return SlopeVariance(field_.config().prior_gradient_std, length_m);
   }
 
  private:
   [[nodiscard]] bool Factorised(Handle handle) noexcept {
     if (handle == factorised_) return true;
     const auto& gp = field_.store()[handle].gp;
-    const bool done = gp.trained() && Factorise(gp, field_.hyperparameters(), workspace_);
+    const bool done = gp.trained() && workspace_.Factorise(gp);
     factorised_ = done ? handle : kNoHandle;
     return done;
   }
@@ -62,7 +61,7 @@ class PosteriorVariance {
   /// Of the GP that is factorised.
   [[nodiscard]] float Posterior(Handle handle, const Vec3& x_m) const noexcept {
     const auto& gp = field_.store()[handle].gp;
-    return std::fmax(Covariance(gp, field_.hyperparameters(), workspace_, x_m)(0, 0), 0.0F);
+    return std::fmax(workspace_.Covariance(gp, x_m)(0, 0), 0.0F);
   }
 
   /// Mean over the samples, those near x first of all.

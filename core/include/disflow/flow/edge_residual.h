@@ -1,45 +1,55 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
+
+#include "disflow/config.h"
 #include "disflow/depth/surface_sample.h"
-#include "disflow/geometry/transform.h"
+#include "disflow/field/edge_map.h"
+#include "disflow/flow/residual.h"
+#include "disflow/memory/fixed_vector.h"
 
 namespace disflow {
 
-/// How far an observed occluding edge lies from the model's edge, object frame.
-template <class ModelEdge>
-struct EdgeResidual {
-  bool found = false;
-  const ModelEdge* edge = nullptr;
-  Vec3 position_m = Vec3::Zero();
-  Vec3 gradient = Vec3::Zero();
-  float residual_m = 0.0F;
-  float sigma_m = 0.0F;
-};
+/// The residual of an occluding edge against an edge of the model, object frame. The outline in the
+/// image moves only across the ray and across the edge, which is the gradient's direction.
+/// @param moved The observed edge in the object frame.
+/// @param std_px Noise of the outline in the image.
+/// @return Unmatched when the edge points at the camera.
+[[nodiscard]] Residual EdgeResidualOf(const EdgePoint& moved, const ModelEdge& edge,
+                                      float std_px) noexcept;
 
-/// @param radius_m The edge is searched for this far around.
-/// @param known The edge, when it was found before.
-template <class EdgeMapType, class ModelEdge = typename EdgeMapType::Edge>
-[[nodiscard]] EdgeResidual<ModelEdge> FindEdge(const EdgeMapType& model_edges, float edge_std_px,
-                                               const EdgePoint& point,
-                                               const PoseObjectFromCamera& T_oc, float radius_m,
-                                               const ModelEdge* known = nullptr) noexcept {
-  constexpr float kFewestSine = 0.3F;
-  const EdgePoint moved = T_oc * point;
-  EdgeResidual<ModelEdge> result;
-  const auto* edge = known != nullptr ? known : model_edges.FindNearest(moved, radius_m);
-  if (edge == nullptr) return result;
-  result.edge = edge;
-  // The outline in the image moves only across the ray and across the edge.
-  const Vec3 across = moved.ray.cross(edge->direction);
-  const float sine = across.norm();
-  if (sine < kFewestSine) return result;  // the edge points at the camera
-  result.found = true;
-  result.position_m = moved.position_m;
-  result.gradient = across / sine;
-  result.residual_m = result.gradient.dot(moved.position_m - edge->position_m);
-  result.sigma_m = edge_std_px * point.pixel_m;
-  return result;
-}
+/// Residuals of a frame's occluding edges: their distance from the model's edges as the image shows
+/// it. An addition to the paper; they hold the pose along flat faces. A kind of residual as
+/// residual.h wants it.
+template <class Limits>
+class EdgeResiduals {
+ public:
+  using Model = EdgeMap<Limits::kMaxModelEdges>;
+  using Edges = FixedVector<EdgePoint, Limits::kMaxEdgePoints>;
+
+  /// Keeps references to its arguments.
+  /// @param edges Camera frame.
+  EdgeResiduals(const Model& model, const Edges& edges, const RegistrationConfig& config) noexcept
+      : model_(model), edges_(edges), config_(config) {}
+
+  [[nodiscard]] int size() const noexcept { return edges_.size(); }
+
+  [[nodiscard]] Residual At(int i, const PoseObjectFromCamera& T_oc, float scale_m,
+                            bool reuse) noexcept {
+    const ModelEdge*& known = known_[static_cast<std::size_t>(i)];
+    if (reuse && known == nullptr) return {};
+    const EdgePoint moved = T_oc * edges_[i];
+    if (!reuse) known = model_.FindNearest(moved, config_.match_radius_m + scale_m);
+    return known == nullptr ? Residual{} : EdgeResidualOf(moved, *known, config_.edge_std_px);
+  }
+
+ private:
+  const Model& model_;
+  const Edges& edges_;
+  const RegistrationConfig& config_;
+  /// What an edge was matched with; written by the first search.
+  std::array<const ModelEdge*, static_cast<std::size_t>(Limits::kMaxEdgePoints)> known_;
+};
 
 }  // namespace disflow

@@ -41,13 +41,6 @@ struct PoseUncertainty {
 [[nodiscard]] Mat6 WithDrift(const Mat6& covariance, float pieces,
                              const RegistrationConfig& config) noexcept;
 
-/// Moves a covariance of (position of a point, rotation) to another point of the same object and
-/// into other axes.
-/// @param rotation From the covariance's axes to the wanted ones.
-/// @param to_point_m From the covariance's point to the wanted one, covariance's axes.
-[[nodiscard]] Mat6 Moved(const Mat6& covariance, const Mat3& rotation,
-                         const Vec3& to_point_m) noexcept;
-
 /// Covariance of the position that a point which turns by an uncertain angle has beyond its
 /// tangent: towards the axis by theta x displacement / 2, along the tangent as far, and not farther
 /// than the point is from the axis.

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "disflow/flow/pose_uncertainty.h"
+#include "disflow/geometry/transform.h"
+
+/// @file
+/// What registration works with and gives, whatever the profile.
+
+namespace disflow {
+
+/// Widths of the robust kernels. Edges of a view that were not seen before find others nearby, so
+/// that theirs has to be narrow unless the pose is being searched for.
+struct RobustScale {
+  float surface_m = 0.0F;
+  float edges_m = 0.0F;
+
+  [[nodiscard]] RobustScale Halved() const noexcept { return {0.5F * surface_m, 0.5F * edges_m}; }
+};
+
+/// What a registration found; the counts are those of its last step.
+struct RegistrationResult {
+  bool solved = false;
+  PoseObjectFromCamera T_oc;
+  RegistrationInformation information;  ///< At the end, about center_m, object frame.
+  Vec3 center_m = Vec3::Zero();         ///< Centre of rotation, object frame.
+  int iterations = 0;
+  int inliers = 0;
+  int edge_inliers = 0;
+  float edge_trust = 1.0F;  ///< How far edges are believed, 0..1: as far as they agree.
+  float rms_m = 0.0F;
+  float generation = 0.0F;  ///< Mean over the surface that was registered to, see Cluster.
+  int unmatched = 0;
+  int truncated = 0;
+  int normal_mismatch = 0;
+};
+
+/// How far the edges of a frame are believed, 0..1: edges that were seen for the first time agree
+/// with wrong ones here and there, and can shift a face that nothing else holds.
+/// @param expected_share RegistrationConfig::edge_agreement.
+/// @param agreeing How many of `edges` agreed with the model's.
+[[nodiscard]] float EdgeTrust(float expected_share, int edges, int agreeing) noexcept;
+
+/// T <- exp(xi) T of section V-D, with the rotation about a centre instead of the origin: better
+/// conditioned in float.
+/// @param center_m Object frame.
+[[nodiscard]] PoseObjectFromCamera StepAbout(const Vec3& center_m, const Vec6& xi,
+                                             const PoseObjectFromCamera& T_oc) noexcept;
+
+/// The step about the same centre that leads from one pose to another.
+/// @param center_c The centre, camera frame.
+[[nodiscard]] Vec6 DeviationAbout(const Vec3& center_c, const PoseObjectFromCamera& T_oc,
+                                  const PoseObjectFromCamera& T_from) noexcept;
+
+/// Whether a step is shorter than both bounds.
+[[nodiscard]] bool IsSmallerThan(const Vec6& xi, float bound_m, float bound_rad) noexcept;
+
+}  // namespace disflow

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+#include "disflow/config.h"
+#include "disflow/flow/normal_equations.h"
+#include "disflow/geometry/transform.h"
+
+/// @file
+/// The seam between what is compared with the model and the pose that is estimated from it.
+///
+/// A kind of residual is a class in a file of its own (surface_residual.h, edge_residual.h) with
+/// - `int size() const`: how many observations there are in this frame,
+/// - `Residual At(int i, const PoseObjectFromCamera& T_oc, float scale_m, bool reuse)`: observation
+///   i under a pose, searched for within reach of a robust kernel of width scale_m, or matched with
+///   what the last search found.
+///
+/// Gates, weights and sums are the same for all kinds and are here. A further kind is one more
+/// file, and one more line in Registration::Linearise().
+
+namespace disflow {
+
+/// What became of one observation in one step.
+enum class ResidualStatus : std::uint8_t {
+  kMatched,
+  kUnmatched,       ///< Nothing of the model is near, or what is near tells no direction.
+  kNormalMismatch,  ///< Surface is near, but none whose normal agrees.
+  kTruncated,       ///< Farther off than RegistrationConfig::truncation_m.
+};
+
+/// How far one observation is off the model under a pose, to first order in the observation's
+/// position. Object frame.
+struct Residual {
+  ResidualStatus status = ResidualStatus::kUnmatched;  ///< The rest has a meaning if kMatched.
+  Vec3 point_m = Vec3::Zero();                         ///< x^o = T_oc x^c, equation (2).
+  Vec3 gradient = Vec3::Zero();                        ///< grad d
+  /// |grad d|; 1 where `gradient` is of unit length by construction.
+  float gradient_norm = 1.0F;
+  float distance_m = 0.0F;   ///< d
+  float variance_m2 = 0.0F;  ///< Of d: observation and model together.
+  float generation = 0.0F;   ///< Of the piece of surface, see Cluster.
+};
+
+/// How the residuals of one kind are weighted in one step (section V-E and additions to the paper).
+struct ResidualWeighting {
+  const RegistrationConfig& config;
+  float scale_m;       ///< Width of the robust kernel.
+  float trust = 1.0F;  ///< How far this kind is believed, 0..1.
+};
+
+/// Sums over the residuals of one kind in one step.
+struct ResidualSums {
+  int inliers = 0;  ///< Residuals that the robust kernel hardly weakens.
+  int unmatched = 0;
+  int normal_mismatch = 0;
+  int truncated = 0;
+  /// With the robust kernel's weights alone.
+  float weight = 0.0F;
+  float weighted_square_m2 = 0.0F;
+  float weighted_generation = 0.0F;
+
+  [[nodiscard]] float mean_generation() const noexcept;
+  [[nodiscard]] float rms_m() const noexcept;
+  /// Gates one residual, weights it, and adds it to the normal equations and to these sums.
+  /// @param center_m Centre of rotation, object frame.
+  void Add(const Residual& residual, const ResidualWeighting& weighting, const Vec3& center_m,
+           NormalEquations& equations) noexcept;
+};
+
+/// Adds all residuals of one kind.
+/// @param reuse Match the observations with what they were matched with in the last step.
+template <class Residuals>
+[[nodiscard]] ResidualSums AddResiduals(Residuals& residuals, const PoseObjectFromCamera& T_oc,
+                                        const Vec3& center_m, const ResidualWeighting& weighting,
+                                        bool reuse, NormalEquations& equations) noexcept {
+  ResidualSums sums;
+  for (int i = 0; i < residuals.size(); ++i) {
+    sums.Add(residuals.At(i, T_oc, weighting.scale_m, reuse), weighting, center_m, equations);
+  }
+  return sums;
+}
+
+}  // namespace disflow

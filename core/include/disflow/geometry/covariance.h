@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "disflow/types.h"
+
+/// @file
+/// Changes of axes and of reference point for covariances of two vectors: (position, rotation
+/// vector) of a pose, (linear, angular) of a twist.
+
+namespace disflow {
+
+/// The covariance in other axes: diag(R, R) C diag(R, R)^T.
+/// @param rotation R, from the covariance's axes to the wanted ones.
+[[nodiscard]] Mat6 RotatedCovariance(const Mat6& covariance, const Mat3& rotation) noexcept;
+
+/// The covariance of (position, rotation vector) at another point of the same rigid body, in other
+/// axes. The lever makes position of rotation: dx' = R (dx + dtheta x to_point).
+/// @param rotation R, from the covariance's axes to the wanted ones.
+/// @param to_point_m From the covariance's point to the wanted one, in the covariance's axes.
+[[nodiscard]] Mat6 CovarianceAtPoint(const Mat6& covariance, const Mat3& rotation,
+                                     const Vec3& to_point_m) noexcept;
+
+}  // namespace disflow

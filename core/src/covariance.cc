@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "disflow/geometry/covariance.h"
+
+#include "disflow/geometry/transform.h"
+
+namespace disflow {
+
+Mat6 RotatedCovariance(const Mat6& covariance, const Mat3& rotation) noexcept {
+  Mat6 jacobian = Mat6::Zero();
+  jacobian.topLeftCorner<3, 3>() = rotation;
+  jacobian.bottomRightCorner<3, 3>() = rotation;
+  // Assigned instead of returned: Eigen sums in another order where a product initialises, and the
+  // last bits of every twist depend on it.
+  Mat6 rotated;
+  rotated = jacobian * covariance * jacobian.transpose();
+  return rotated;
+}
+
+Mat6 CovarianceAtPoint(const Mat6& covariance, const Mat3& rotation,
+                       const Vec3& to_point_m) noexcept {
+  Mat6 jacobian = Mat6::Zero();
+  jacobian.topLeftCorner<3, 3>() = rotation;
+  jacobian.topRightCorner<3, 3>() = -rotation * Skew(to_point_m);
+  jacobian.bottomRightCorner<3, 3>() = rotation;
+  return jacobian * covariance * jacobian.transpose();
+}
+
+}  // namespace disflow

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "disflow/geometry/covariance.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <cmath>
+
+#include "disflow/geometry/transform.h"
+#include "symmetric_matrix.h"
+
+namespace disflow {
+namespace {
+
+const Mat3 kRotation = ExpSo3(Vec3(0.3F, -1.1F, 0.7F));
+const Vec3 kLever_m(0.4F, -0.2F, 0.9F);
+
+/// The covariance of displacements whose covariance is given, after `move` was applied to each of
+/// them: one displacement per column of a square root, without any Jacobian.
+template <class Move>
+Mat6 OfMovedDisplacements(const Mat6& covariance, const Move& move) {
+  const Mat6 root = covariance.llt().matrixL();
+  Mat6 result = Mat6::Zero();
+  for (int i = 0; i < 6; ++i) {
+    Vec6 moved;
+    move(Vec3(root.col(i).head<3>()), Vec3(root.col(i).tail<3>()), moved);
+    result += moved * moved.transpose();
+  }
+  return result;
+}
+
+TEST(RotatedCovariance, IsTheCovarianceOfTheRotatedVectors) {
+  const Mat6 covariance = testing::RandomPositiveDefinite(1);
+  const Mat6 expected =
+      OfMovedDisplacements(covariance, [](const Vec3& first, const Vec3& second, Vec6& moved) {
+        moved << kRotation * first, kRotation * second;
+      });
+  EXPECT_LT((RotatedCovariance(covariance, kRotation) - expected).norm(), 1e-5F * expected.norm());
+}
+
+TEST(CovarianceAtPoint, IsTheCovarianceOfTheOtherPointsDisplacement) {
+  const Mat6 covariance = testing::RandomPositiveDefinite(2);
+  const Mat6 expected =
+      OfMovedDisplacements(covariance, [](const Vec3& shift_m, const Vec3& turn_rad, Vec6& moved) {
+        moved << kRotation * (shift_m + turn_rad.cross(kLever_m)), kRotation * turn_rad;
+      });
+  EXPECT_LT((CovarianceAtPoint(covariance, kRotation, kLever_m) - expected).norm(),
+            1e-5F * expected.norm());
+}
+
+TEST(CovarianceAtPoint, ThereAndBack_IsTheSame) {
+  const Mat6 covariance = testing::RandomPositiveDefinite(3);
+  const Mat6 there = CovarianceAtPoint(covariance, kRotation, kLever_m);
+  const Mat6 back = CovarianceAtPoint(there, kRotation.transpose(), Vec3(-(kRotation * kLever_m)));
+  EXPECT_LT((back - covariance).norm(), 1e-5F * there.norm());
+}
+
+TEST(CovarianceAtPoint, OfATurn_ShowsAtTheEndOfTheLever) {
+  Mat6 turn = Mat6::Zero();
+  turn(5, 5) = 0.01F;  // 0.1 rad about z
+  const Mat6 moved = CovarianceAtPoint(turn, Mat3::Identity(), Vec3(0.2F, 0.0F, 0.0F));
+  EXPECT_NEAR(std::sqrt(moved(1, 1)), 0.02F, 1e-6F);
+  EXPECT_NEAR(moved(1, 5), 0.02F * 0.1F, 1e-7F);
+  EXPECT_NEAR(moved(0, 0), 0.0F, 1e-9F);
+}
+
+}  // namespace
+}  // namespace disflow
