@@ -2,7 +2,7 @@
 #include "disflow/hal/depth_stream/packet_decoder.h"
 
 #include "disflow/hal/depth_stream/crc32.h"
-#include "disflow/hal/saturating.h"
+#include "disflow/saturating.h"
 
 namespace disflow::hal::depth_stream {
 namespace {

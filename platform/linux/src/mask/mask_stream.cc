@@ -8,7 +8,7 @@
 #include <atomic>
 #include <cstring>
 
-#include "disflow/hal/saturating.h"
+#include "disflow/saturating.h"
 
 namespace disflow::posix {
 namespace {
@@ -77,18 +77,18 @@ Status MaskStream::DoNewest(Newest& newest) noexcept {
       newest = {mask_.data(), stamp_ns_};
       return Status::kOk;
     case Reading::kMissing:
-      hal::AddSaturating(counters_.missing);
+      AddSaturating(counters_.missing);
       return Status::kNotFound;
     case Reading::kWrongSize:
-      hal::AddSaturating(counters_.wrong_size);
+      AddSaturating(counters_.wrong_size);
       return Status::kMaskSizeMismatch;
     case Reading::kCorrupt:
-      hal::AddSaturating(counters_.corrupt);
+      AddSaturating(counters_.corrupt);
       return Status::kCorrupt;
     case Reading::kTorn:
       break;
   }
-  hal::AddSaturating(counters_.torn);
+  AddSaturating(counters_.torn);
   return Status::kWouldBlock;
 }
 
@@ -98,7 +98,7 @@ MaskStream::Reading MaskStream::ReadNewest() noexcept {
   Reading reading = Reading::kTorn;
   for (int i = 0; i < kAttempts && reading == Reading::kTorn; ++i) reading = ReadOnce();
   if (reading != Reading::kTorn || sequence_ == 0) return reading;
-  hal::AddSaturating(counters_.torn);
+  AddSaturating(counters_.torn);
   // The one before is whole; whether it is still of use its stamp decides.
   return Reading::kUnchanged;
 }
