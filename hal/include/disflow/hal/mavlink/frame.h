@@ -123,7 +123,7 @@ class PayloadReader {
 /// Writes one unsigned frame.
 /// @param out At least kFrameSize<Message> bytes.
 /// @return Bytes written, or kCapacityExceeded if `out` is too small (nothing is written then).
-template <class Message>
+template <KnownMessage Message>
 [[nodiscard]] Expected<std::size_t> EncodeFrame(const Message& message, const FrameHeader& header,
                                                 std::span<std::byte> out) noexcept {
   if (out.size() < kFrameSize<Message>) return {0, Status::kCapacityExceeded};
@@ -135,7 +135,7 @@ template <class Message>
 /// Takes a message out of a checked frame. Missing bytes are zeros, bytes of newer extensions are
 /// ignored.
 /// @return kOk, or kUnsupported if the frame carries another message (`message` is unchanged).
-template <class Message>
+template <KnownMessage Message>
 [[nodiscard]] Status DecodePayload(const FrameView& frame, Message& message) noexcept {
   if (frame.message_id != Message::kId) return Status::kUnsupported;
   PayloadReader reader(frame.payload);
