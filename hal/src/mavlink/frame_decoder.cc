@@ -82,8 +82,8 @@ FrameDecoder::Verdict FrameDecoder::Examine(std::size_t& frame_size) noexcept {
   Crc crc;
   crc.Add(std::span<const std::byte>(buffer_).subspan(begin_ + 1, payload_end - 1));
   crc.Add(known->crc_extra);
-  const std::uint32_t received = At(payload_end) | (std::uint32_t{At(payload_end + 1)} << 8U);
-  if (crc.value() == received) return Verdict::kFrame;
+  const auto received = std::span<const std::byte>(buffer_).subspan(begin_ + payload_end);
+  if (crc.value() == LoadLittleEndian<std::uint16_t>(received)) return Verdict::kFrame;
   AddSaturating(counters_.bad_checksum);
   return Verdict::kGarbage;
 }
