@@ -6,7 +6,7 @@
 
 #include "disflow/baremetal/startup.h"
 #include "disflow/hal/mavlink/messages.h"
-#include "disflow/hal/saturating.h"
+#include "disflow/saturating.h"
 
 namespace disflow::firmware {
 namespace {
@@ -48,7 +48,7 @@ void Firmware::Track(const DepthFrame& frame) noexcept {
   if (budgets_.stage_us != 0) {
     const std::int64_t budget_ns = std::int64_t{budgets_.stage_us} * 1000;
     for (const std::int64_t stage_ns : estimate.stage_ns) {
-      if (stage_ns > budget_ns) hal::AddSaturating(stages_late_);
+      if (stage_ns > budget_ns) AddSaturating(stages_late_);
     }
   }
   SendEstimate(estimate);

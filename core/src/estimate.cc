@@ -3,15 +3,62 @@
 
 #include <limits>
 
+#include "disflow/saturating.h"
+
 namespace disflow {
 namespace {
 
-void AddSaturating(std::uint32_t& total, std::uint32_t more) noexcept {
-  constexpr std::uint32_t kMax = std::numeric_limits<std::uint32_t>::max();
-  total = more > kMax - total ? kMax : total + more;
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+
+bool IsFinite(const Estimate& estimate) noexcept {
+  return estimate.T_co.IsFinite() && estimate.twist.linear_mps.allFinite() &&
+         estimate.twist.angular_rps.allFinite() && (!estimate.has_T_wo || estimate.T_wo.IsFinite());
+}
+
+/// Whether the pose belongs to the frame's stamp at all.
+bool IsForStamp(const Estimate& estimate) noexcept {
+  // A stamp that does not increase has been answered before; of a frame that could not be read
+  // none is known.
+  const bool is_of_device = estimate.status >= Status::kInvalidUri;
+  const bool has_model = estimate.pose_covariance.diagonal().maxCoeff() > 0.0F;
+  return has_model && !is_of_device && estimate.status != Status::kStampNotIncreasing;
 }
 
 }  // namespace
+
+EstimateKind KindOf(const Estimate& estimate) noexcept {
+  if (!IsFinite(estimate)) return EstimateKind::kRefused;
+  if (estimate.status != Status::kOk && !IsForStamp(estimate)) return EstimateKind::kRefused;
+  const bool measured = estimate.status == Status::kOk && estimate.state != TrackingState::kLost;
+  return measured ? EstimateKind::kMeasured : EstimateKind::kPredicted;
+}
+
+Estimate Published(const Estimate& estimate) noexcept {
+  Estimate published = estimate;
+  if (KindOf(estimate) != EstimateKind::kRefused) return published;
+  const Vec3 nowhere = Vec3::Constant(kNaN);
+  published.T_co = {Mat3(Mat3::Constant(kNaN)), nowhere};
+  published.has_T_wo = false;
+  published.T_wo = {};
+  published.twist = {nowhere, nowhere};
+  published.pose_covariance.setConstant(kNaN);
+  published.twist_covariance.setConstant(kNaN);
+  published.weak = {};
+  published.quality = 0;
+  return published;
+}
+
+const char* Name(EstimateKind kind) noexcept {
+  switch (kind) {
+    case EstimateKind::kMeasured:
+      return "measured";
+    case EstimateKind::kPredicted:
+      return "predicted";
+    case EstimateKind::kRefused:
+      return "refused";
+  }
+  return "unknown";
+}
 
 const char* Name(TrackingState state) noexcept {
   switch (state) {

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "disflow/hal/saturating.h"
+#include "disflow/saturating.h"
 
 namespace disflow::apps {
 namespace {
@@ -58,8 +58,8 @@ FrameFeed::Turn FrameFeed::TakeNewest(DepthFrame& frame) {
     turn.counters = counters_;
   }
   const std::uint32_t replaced = handover_->dropped();
-  hal::AddSaturating(turn.counters.dropped, replaced);
-  hal::AddSaturating(turn.counters.skipped, replaced);
+  AddSaturating(turn.counters.dropped, replaced);
+  AddSaturating(turn.counters.skipped, replaced);
   return turn;
 }
 

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <utility>
 
-#include "disflow/hal/saturating.h"
+#include "disflow/saturating.h"
 
 namespace disflow::apps {
 namespace {
@@ -55,7 +55,7 @@ void FrameHandover::Put(const DepthFrame& frame) {
   slots_[filling_].fault = Status::kOk;
   {
     const std::lock_guard lock(mutex_);
-    if (waiting_ && slots_[between_].fault == Status::kOk) hal::AddSaturating(dropped_);
+    if (waiting_ && slots_[between_].fault == Status::kOk) AddSaturating(dropped_);
     std::swap(filling_, between_);
     waiting_ = true;
   }

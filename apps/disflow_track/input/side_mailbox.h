@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "disflow/hal/camera_pose_history.h"
-#include "disflow/hal/saturating.h"
 #include "disflow/memory/fixed_vector.h"
 #include "disflow/posix/mask_source.h"
+#include "disflow/saturating.h"
 
 /// @file
 /// What another thread of this program hears about the depth images, on its way to the tracking
@@ -95,12 +95,12 @@ class MaskMailbox final : public posix::MaskSource {
       fresh_ = false;
     }
     if (!has_any_) {
-      hal::AddSaturating(counters_.missing);
+      AddSaturating(counters_.missing);
       return Status::kNotFound;
     }
     const Mask& mask = masks_[taken_];
     if (!mask.fits) {
-      hal::AddSaturating(counters_.wrong_size);
+      AddSaturating(counters_.wrong_size);
       return Status::kMaskSizeMismatch;
     }
     newest = {mask.pixels.data(), mask.stamp_ns};

@@ -3,7 +3,7 @@
 
 #include <chrono>
 
-#include "disflow/hal/saturating.h"
+#include "disflow/saturating.h"
 
 namespace disflow::apps {
 
@@ -42,7 +42,7 @@ void ChannelReader::Push(const FrameResult& result) noexcept {
   if (count_ == kResults) {
     first_ = (first_ + 1) % kResults;
     --count_;
-    hal::AddSaturating(lost_);
+    AddSaturating(lost_);
   }
   results_[(first_ + count_) % kResults] = result;
   ++count_;

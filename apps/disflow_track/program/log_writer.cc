@@ -8,7 +8,7 @@
 #include <cstring>
 #include <utility>
 
-#include "disflow/hal/saturating.h"
+#include "disflow/saturating.h"
 
 namespace disflow::apps {
 namespace {
@@ -35,7 +35,7 @@ void LogWriter::Push(std::string_view text) noexcept {
   {
     const std::lock_guard lock(mutex_);
     if (count_ == kEntries) {
-      hal::AddSaturating(lost_);
+      AddSaturating(lost_);
       return;
     }
     Entry& entry = entries_[(first_ + count_) % kEntries];

@@ -96,7 +96,7 @@ struct Estimate {
   Twist twist;
 
   /// Covariance of the pose: (position of the object's origin [m], rotation vector [rad]) in camera
-  /// axes.
+  /// axes. All zeros: no pose has been measured yet.
   Mat6 pose_covariance = Mat6::Zero();
   /// Covariance of (linear_mps, angular_rps).
   Mat6 twist_covariance = Mat6::Zero();
@@ -119,5 +119,28 @@ struct Estimate {
   Counters rejected;                                 ///< Of this frame alone.
   std::array<std::int64_t, kStageCount> stage_ns{};  ///< Time per stage, if a StageClock was given.
 };
+
+/// What an estimate may be used for. Whatever leaves the program does so by this and nothing else;
+/// docs/wire-format.md has the table of what each channel makes of it.
+enum class EstimateKind : std::uint8_t {
+  /// The frame was registered: pose and twist are of its capture time. For control, and for other
+  /// filters to fuse.
+  kMeasured,
+  /// The frame was not registered: pose and twist are predicted to its capture time, with a
+  /// covariance that grows. For displays and for bridging a short gap; never to be fused, since
+  /// nothing has been seen.
+  kPredicted,
+  /// Nothing is known at this time: there is no model yet, the stamp does not increase, the frame
+  /// could not be read, or a number is not finite. For counting only.
+  kRefused,
+};
+/// @return Lower-case name, static storage.
+[[nodiscard]] const char* Name(EstimateKind kind) noexcept;
+
+[[nodiscard]] EstimateKind KindOf(const Estimate& estimate) noexcept;
+
+/// What may leave of an estimate, through any channel. That of a refused one is told from a pose by
+/// everybody: pose, twist and covariances are NaN, the quality is 0.
+[[nodiscard]] Estimate Published(const Estimate& estimate) noexcept;
 
 }  // namespace disflow

@@ -2,9 +2,9 @@
 #include "disflow/hal/depth_stream/packet.h"
 
 #include <algorithm>
-#include <bit>
 
 #include "disflow/hal/depth_stream/crc32.h"
+#include "disflow/hal/little_endian.h"
 
 namespace disflow::hal::depth_stream {
 namespace {
@@ -19,13 +19,11 @@ class Composer {
     Put(static_cast<std::uint8_t>(type));
     Put(sequence);
   }
-  template <class Unsigned>
-  void Put(Unsigned value) noexcept {
-    for (std::size_t i = 0; i < sizeof(Unsigned); ++i) {
-      bytes_[size_++] = static_cast<std::byte>((value >> (8 * i)) & 0xFFU);
-    }
+  template <class Number>
+  void Put(Number value) noexcept {
+    StoreLittleEndian(value, std::span(bytes_).subspan(size_));
+    size_ += sizeof(Number);
   }
-  void Put(float value) noexcept { Put(std::bit_cast<std::uint32_t>(value)); }
 
   /// Appends the checksum and codes all so that no byte is zero but the delimiters.
   std::span<const std::byte> Seal(EncodedPacket& out) noexcept {
@@ -59,16 +57,12 @@ class Composer {
 class Reader {
  public:
   explicit Reader(std::span<const std::byte> bytes) noexcept : bytes_(bytes) {}
-  template <class Unsigned>
-  [[nodiscard]] Unsigned Get() noexcept {
-    Unsigned value = 0;
-    for (std::size_t i = 0; i < sizeof(Unsigned); ++i) {
-      const auto byte = static_cast<Unsigned>(std::to_integer<std::uint8_t>(bytes_[next_++]));
-      value = static_cast<Unsigned>(value | static_cast<Unsigned>(byte << (8 * i)));
-    }
+  template <class Number>
+  [[nodiscard]] Number Get() noexcept {
+    const auto value = LoadLittleEndian<Number>(bytes_.subspan(next_));
+    next_ += sizeof(Number);
     return value;
   }
-  [[nodiscard]] float GetFloat() noexcept { return std::bit_cast<float>(Get<std::uint32_t>()); }
   [[nodiscard]] bool empty() const noexcept { return next_ >= bytes_.size(); }
 
  private:
@@ -135,11 +129,11 @@ bool DecodeStart(std::span<const std::byte> payload, FrameStart& start) noexcept
   start.stamp_ns = static_cast<StampNs>(reader.Get<std::uint64_t>());
   start.width_px = reader.Get<std::uint16_t>();
   start.height_px = reader.Get<std::uint16_t>();
-  start.unit_m = reader.GetFloat();
-  start.camera.fx_px = reader.GetFloat();
-  start.camera.fy_px = reader.GetFloat();
-  start.camera.cx_px = reader.GetFloat();
-  start.camera.cy_px = reader.GetFloat();
+  start.unit_m = reader.Get<float>();
+  start.camera.fx_px = reader.Get<float>();
+  start.camera.fy_px = reader.Get<float>();
+  start.camera.cx_px = reader.Get<float>();
+  start.camera.cy_px = reader.Get<float>();
   return true;
 }
 

@@ -2,7 +2,8 @@
 #include "disflow/hal/depth_stream/packet_decoder.h"
 
 #include "disflow/hal/depth_stream/crc32.h"
-#include "disflow/hal/saturating.h"
+#include "disflow/hal/little_endian.h"
+#include "disflow/saturating.h"
 
 namespace disflow::hal::depth_stream {
 namespace {
@@ -17,14 +18,6 @@ std::size_t DecodeInPlace(std::span<std::byte> bytes) noexcept {
     if (code != 0xFF && in < bytes.size()) bytes[out++] = std::byte{0};
   }
   return out;
-}
-
-std::uint32_t LittleEndian32(std::span<const std::byte> bytes) noexcept {
-  std::uint32_t value = 0;
-  for (std::size_t i = 0; i < 4; ++i) {
-    value |= std::to_integer<std::uint32_t>(bytes[i]) << (8 * i);
-  }
-  return value;
 }
 
 }  // namespace
@@ -55,12 +48,10 @@ bool PacketDecoder::Finish(std::size_t encoded_size, PacketView& packet) noexcep
   const std::size_t size = DecodeInPlace(std::span(buffer_).first(encoded_size));
   if (size < kHeaderSize + kCrcSize) return false;
   const auto content = std::span<const std::byte>(buffer_).first(size - kCrcSize);
-  if (LittleEndian32(std::span<const std::byte>(buffer_).subspan(size - kCrcSize)) !=
-      Crc32(content)) {
-    return false;
-  }
+  const auto crc = std::span<const std::byte>(buffer_).subspan(size - kCrcSize);
+  if (LoadLittleEndian<std::uint32_t>(crc) != Crc32(content)) return false;
   packet.type = static_cast<PacketType>(std::to_integer<std::uint8_t>(content[0]));
-  packet.sequence = LittleEndian32(content.subspan(1));
+  packet.sequence = LoadLittleEndian<std::uint32_t>(content.subspan(1));
   packet.payload = content.subspan(kHeaderSize);
   return true;
 }

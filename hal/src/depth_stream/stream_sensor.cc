@@ -5,7 +5,7 @@
 
 #include "disflow/hal/mavlink/frame.h"
 #include "disflow/hal/mavlink/telemetry.h"
-#include "disflow/hal/saturating.h"
+#include "disflow/saturating.h"
 
 namespace disflow::hal::depth_stream {
 

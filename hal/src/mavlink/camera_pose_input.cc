@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "disflow/hal/saturating.h"
+#include "disflow/saturating.h"
 
 namespace disflow::hal::mavlink {
 namespace {

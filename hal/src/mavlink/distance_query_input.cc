@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "disflow/hal/mavlink/distance_query_input.h"
 
-#include "disflow/hal/saturating.h"
+#include "disflow/saturating.h"
 
 namespace disflow::hal::mavlink {
 

@@ -24,8 +24,7 @@ std::size_t SealFrame(const FrameHeader& header, std::uint32_t message_id, std::
   Crc crc;
   crc.Add(out.subspan(1, end - 1));
   crc.Add(crc_extra);
-  out[end] = static_cast<std::byte>(crc.value() & 0xFFU);
-  out[end + 1] = static_cast<std::byte>(crc.value() >> 8U);
+  StoreLittleEndian(crc.value(), out.subspan(end));
   return end + kChecksumSize;
 }
 

@@ -3,25 +3,23 @@
 
 #include <algorithm>
 
-#include "disflow/hal/saturating.h"
+#include "disflow/saturating.h"
 
 namespace disflow::hal::mavlink {
 namespace {
 
-struct KnownMessage {
+/// What has to be known of a message before its checksum can be verified.
+struct MessageFacts {
   std::uint32_t id;
   std::uint8_t crc_extra;
 };
 
-constexpr std::array kKnownMessages{
-    KnownMessage{Heartbeat::kId, CrcExtra<Heartbeat>()},
-    KnownMessage{Odometry::kId, CrcExtra<Odometry>()},
-    KnownMessage{DisflowStatus::kId, CrcExtra<DisflowStatus>()},
-    KnownMessage{DisflowReady::kId, CrcExtra<DisflowReady>()},
-    KnownMessage{DisflowTiming::kId, CrcExtra<DisflowTiming>()},
-    KnownMessage{DisflowQuery::kId, CrcExtra<DisflowQuery>()},
-    KnownMessage{DisflowField::kId, CrcExtra<DisflowField>()},
-};
+template <class... Messages>
+constexpr std::array<MessageFacts, sizeof...(Messages)> FactsOf(MessageList<Messages...>) noexcept {
+  return {{{Messages::kId, CrcExtra<Messages>()}...}};
+}
+
+constexpr auto kKnownMessages = FactsOf(KnownMessages{});
 
 }  // namespace
 
@@ -71,7 +69,7 @@ FrameDecoder::Verdict FrameDecoder::Examine(std::size_t& frame_size) noexcept {
   const std::uint32_t id = MessageId();
   const auto* const known =
       std::find_if(kKnownMessages.begin(), kKnownMessages.end(),
-                   [id](const KnownMessage& message) { return message.id == id; });
+                   [id](const MessageFacts& message) { return message.id == id; });
   if (known == kKnownMessages.end()) {
     // Its checksum cannot be verified, so its length cannot be trusted to skip over it.
     AddSaturating(counters_.unknown_id);
@@ -84,8 +82,8 @@ FrameDecoder::Verdict FrameDecoder::Examine(std::size_t& frame_size) noexcept {
   Crc crc;
   crc.Add(std::span<const std::byte>(buffer_).subspan(begin_ + 1, payload_end - 1));
   crc.Add(known->crc_extra);
-  const std::uint32_t received = At(payload_end) | (std::uint32_t{At(payload_end + 1)} << 8U);
-  if (crc.value() == received) return Verdict::kFrame;
+  const auto received = std::span<const std::byte>(buffer_).subspan(begin_ + payload_end);
+  if (crc.value() == LoadLittleEndian<std::uint16_t>(received)) return Verdict::kFrame;
   AddSaturating(counters_.bad_checksum);
   return Verdict::kGarbage;
 }

@@ -43,19 +43,11 @@ Covariance RotatedUpperTriangle(const Mat3& rotation, const Mat6& covariance) no
   return packed;
 }
 
-bool IsFinite(const Estimate& estimate) noexcept {
-  return estimate.T_co.IsFinite() && estimate.twist.linear_mps.allFinite() &&
-         estimate.twist.angular_rps.allFinite() && (!estimate.has_T_wo || estimate.T_wo.IsFinite());
-}
-
+/// ODOMETRY has this byte alone to tell a measurement from the rest.
 std::int8_t QualityOf(const Estimate& estimate) noexcept {
-  if (estimate.state == TrackingState::kLost || !IsFinite(estimate)) {
-    return Odometry::kQualityFailed;
-  }
-  if (estimate.quality > 0) {
-    return static_cast<std::int8_t>(std::min<std::uint8_t>(estimate.quality, 100));
-  }
-  return estimate.status == Status::kOk ? Odometry::kQualityUnknown : Odometry::kQualityFailed;
+  constexpr std::uint8_t kBestQuality = 100;
+  if (KindOf(estimate) != EstimateKind::kMeasured) return Odometry::kQualityFailed;
+  return static_cast<std::int8_t>(std::min(estimate.quality, kBestQuality));
 }
 
 std::uint16_t Saturated16(std::uint32_t count) noexcept {
@@ -123,7 +115,8 @@ Fault Validate(const TelemetryOptions& options) noexcept {
                    static_cast<int>(options.pose_frame));
 }
 
-Odometry MakeOdometry(const Estimate& estimate, MavFrame pose_frame) noexcept {
+Odometry MakeOdometry(const Estimate& tracked, MavFrame pose_frame) noexcept {
+  const Estimate estimate = Published(tracked);
   const Mat3 R_fc = RotationFrdFromOptical();
   Odometry odometry;
   odometry.time_usec = MicrosecondsOf(estimate.stamp_ns);
@@ -172,7 +165,7 @@ DisflowStatus MakeStatus(const Estimate& estimate, const SendContext& context) n
   status.residuals_normal_mismatch = Saturated16(frame.residuals_normal_mismatch);
   status.state = static_cast<std::uint8_t>(estimate.state);
   status.status = static_cast<std::uint8_t>(estimate.status);
-  status.quality = estimate.quality;
+  status.quality = KindOf(estimate) == EstimateKind::kRefused ? std::uint8_t{0} : estimate.quality;
   status.reset_counter = estimate.reset_counter;
   status.corrupt_frames = context.sensor.corrupt;
   status.sensor_restarts = Saturated16(context.sensor.restarts);

@@ -2,7 +2,7 @@
 #include "cmsdk_uart.h"
 
 #include "disflow/baremetal/startup.h"
-#include "disflow/hal/saturating.h"
+#include "disflow/saturating.h"
 
 namespace disflow::baremetal {
 namespace {
@@ -32,13 +32,13 @@ void CmsdkUart::DoClose() noexcept { At(kControl) = 0; }
 
 hal::Fault CmsdkUart::DoSend(std::span<const std::byte> message) noexcept {
   if (message.size() > to_send_.free()) {
-    hal::AddSaturating(counters_.dropped_messages);
+    AddSaturating(counters_.dropped_messages);
     return {.status = Status::kWouldBlock};
   }
   // There was room, and only this fills the ring.
   for (const std::byte byte : message) (void)to_send_.Push(byte);
-  hal::AddSaturating(counters_.sent_messages);
-  hal::AddSaturating(counters_.sent_bytes, message.size());
+  AddSaturating(counters_.sent_messages);
+  AddSaturating(counters_.sent_bytes, message.size());
   const InterruptLock lock;
   FeedTransmitter();
   return {};
@@ -47,7 +47,7 @@ hal::Fault CmsdkUart::DoSend(std::span<const std::byte> message) noexcept {
 Expected<std::size_t> CmsdkUart::DoReceive(std::span<std::byte> buffer) noexcept {
   std::size_t size = 0;
   while (size < buffer.size() && received_.Pop(buffer[size])) ++size;
-  hal::AddSaturating(counters_.received_bytes, size);
+  AddSaturating(counters_.received_bytes, size);
   return {size};
 }
 
@@ -59,11 +59,11 @@ void CmsdkUart::OnReceive() noexcept {
   At(kInterrupt) = kReceiveInterrupt;
   if ((At(kState) & kReceiveOverrun) != 0) {
     At(kState) = kReceiveOverrun;
-    hal::AddSaturating(counters_.overrun_bytes);
+    AddSaturating(counters_.overrun_bytes);
   }
   while ((At(kState) & kReceiveFull) != 0) {
     const auto byte = static_cast<std::byte>(At(kData) & 0xFFU);
-    if (!received_.Push(byte)) hal::AddSaturating(counters_.overrun_bytes);
+    if (!received_.Push(byte)) AddSaturating(counters_.overrun_bytes);
   }
 }
 

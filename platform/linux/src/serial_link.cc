@@ -8,8 +8,8 @@
 #include <algorithm>
 
 #include "baud_rates.h"
-#include "disflow/hal/saturating.h"
 #include "disflow/posix/monotonic_clock.h"
+#include "disflow/saturating.h"
 #include "errno_fault.h"
 
 namespace disflow::posix {
@@ -79,7 +79,7 @@ hal::Fault SerialLink::DoOpen() noexcept {
   }
   port_ = std::move(fd);
   pending_begin_ = pending_end_ = 0;
-  if (lost_) hal::AddSaturating(counters_.reconnects);
+  if (lost_) AddSaturating(counters_.reconnects);
   lost_ = false;
   return {};
 }
@@ -148,7 +148,7 @@ int SerialLink::FlushPending() noexcept {
     if (written < 0) return errno == EAGAIN ? 0 : errno;
     if (written == 0) return 0;
     pending_begin_ += static_cast<std::size_t>(written);
-    hal::AddSaturating(counters_.sent_bytes, static_cast<std::uint64_t>(written));
+    AddSaturating(counters_.sent_bytes, static_cast<std::uint64_t>(written));
   }
   return 0;
 }
@@ -159,7 +159,7 @@ hal::Fault SerialLink::DoSend(std::span<const std::byte> message) noexcept {
                           lost_ ? ", the device was lost" : "");
   }
   if (message.size() > kMaxMessageSize) {
-    hal::AddSaturating(counters_.dropped_messages);
+    AddSaturating(counters_.dropped_messages);
     return hal::MakeFault(Status::kIoError, "%s: message of %zu bytes; at most %zu are allowed",
                           name(), message.size(), kMaxMessageSize);
   }
@@ -176,12 +176,12 @@ hal::Fault SerialLink::DoSend(std::span<const std::byte> message) noexcept {
     return SendFailed(EAGAIN);
   }
   if (error != 0) return SendFailed(error);
-  hal::AddSaturating(counters_.sent_messages);
+  AddSaturating(counters_.sent_messages);
   return {};
 }
 
 hal::Fault SerialLink::SendFailed(int error) noexcept {
-  hal::AddSaturating(counters_.dropped_messages);
+  AddSaturating(counters_.dropped_messages);
   if (error == EAGAIN) {
     return hal::MakeFault(Status::kWouldBlock,
                           "%s: message dropped, the line is slower than the telemetry; raise "
@@ -206,7 +206,7 @@ Expected<std::size_t> SerialLink::DoReceive(std::span<std::byte> buffer) noexcep
       RetryOnSignal([&] { return ::read(port_.get(), buffer.data(), buffer.size()); });
   if (received > 0) {
     const auto size = static_cast<std::size_t>(received);
-    hal::AddSaturating(counters_.received_bytes, size);
+    AddSaturating(counters_.received_bytes, size);
     return {size};
   }
   if (received < 0 && errno == EAGAIN) return {0};

@@ -7,7 +7,7 @@
 
 #include <cstring>
 
-#include "disflow/hal/saturating.h"
+#include "disflow/saturating.h"
 #include "errno_fault.h"
 
 namespace disflow::posix {
@@ -98,7 +98,7 @@ int SocketLink::Flush() noexcept {
       sent += static_cast<std::size_t>(size);
     }
   }
-  hal::AddSaturating(counters_.sent_bytes, sent);
+  AddSaturating(counters_.sent_bytes, sent);
   pending_.erase(pending_.begin(), pending_.begin() + static_cast<std::ptrdiff_t>(sent));
   return error;
 }
@@ -107,7 +107,7 @@ hal::Fault SocketLink::DoSend(std::span<const std::byte> message) noexcept {
   if (!socket_.is_open()) return hal::MakeFault(Status::kNotOpen, "%s: not open", name());
   int error = Flush();
   if (error == EAGAIN) {
-    hal::AddSaturating(counters_.dropped_messages);
+    AddSaturating(counters_.dropped_messages);
     return hal::MakeFault(Status::kWouldBlock, "%s: the far end does not take bytes", name());
   }
   if (error == 0) {
@@ -115,7 +115,7 @@ hal::Fault SocketLink::DoSend(std::span<const std::byte> message) noexcept {
     error = Flush();
   }
   if (error != 0 && error != EAGAIN) return Lost("cannot send", error);
-  hal::AddSaturating(counters_.sent_messages);
+  AddSaturating(counters_.sent_messages);
   return {};
 }
 
@@ -128,7 +128,7 @@ Expected<std::size_t> SocketLink::DoReceive(std::span<std::byte> buffer) noexcep
       [&] { return ::recv(socket_.get(), buffer.data(), buffer.size(), MSG_DONTWAIT); });
   if (size < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) return {0};
   if (size <= 0) return {0, Lost("cannot receive", size < 0 ? errno : ECONNRESET).status};
-  hal::AddSaturating(counters_.received_bytes, static_cast<std::uint64_t>(size));
+  AddSaturating(counters_.received_bytes, static_cast<std::uint64_t>(size));
   return {static_cast<std::size_t>(size)};
 }
 

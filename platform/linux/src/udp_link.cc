@@ -7,7 +7,7 @@
 #include <cstring>
 #include <memory>
 
-#include "disflow/hal/saturating.h"
+#include "disflow/saturating.h"
 #include "errno_fault.h"
 
 namespace disflow::posix {
@@ -121,16 +121,16 @@ hal::Fault UdpLink::DoSend(std::span<const std::byte> message) noexcept {
   ssize_t sent = RetryOnSignal(send);
   if (sent < 0 && errno == ECONNREFUSED) {
     // The answer to an earlier datagram; reading it cleared it, and this one has not been sent yet.
-    hal::AddSaturating(counters_.refused_messages);
+    AddSaturating(counters_.refused_messages);
     sent = RetryOnSignal(send);
   }
   if (sent >= 0) {
-    hal::AddSaturating(counters_.sent_messages);
-    hal::AddSaturating(counters_.sent_bytes, message.size());
+    AddSaturating(counters_.sent_messages);
+    AddSaturating(counters_.sent_bytes, message.size());
     return {};
   }
   const int error = errno;
-  hal::AddSaturating(counters_.dropped_messages);
+  AddSaturating(counters_.dropped_messages);
   switch (error) {
     case EAGAIN:
     case ECONNREFUSED:
@@ -154,11 +154,11 @@ Expected<std::size_t> UdpLink::DoReceive(std::span<std::byte> buffer) noexcept {
       [&] { return ::recv(socket_.get(), buffer.data(), buffer.size(), MSG_DONTWAIT); });
   if (received >= 0) {
     const auto size = static_cast<std::size_t>(received);
-    hal::AddSaturating(counters_.received_bytes, size);
+    AddSaturating(counters_.received_bytes, size);
     return {size};
   }
   if (errno == ECONNREFUSED) {
-    hal::AddSaturating(counters_.refused_messages);
+    AddSaturating(counters_.refused_messages);
     return {0};
   }
   return {0, errno == EAGAIN ? Status::kOk : Status::kIoError};

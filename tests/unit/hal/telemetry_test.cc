@@ -38,15 +38,29 @@ TEST(Telemetry, NegativeStamp_BecomesZeroInsteadOfTheFarFuture) {
   EXPECT_EQ(Sent(estimate).time_usec, 0U);
 }
 
-TEST(Telemetry, Quality_FollowsMavlinksScale) {
+TEST(Telemetry, MeasuredPose_HasMavlinksQuality) {
   Estimate estimate = Tracked();
   EXPECT_EQ(Sent(estimate).quality, 90);
   estimate.quality = 255;
   EXPECT_EQ(Sent(estimate).quality, 100);
   estimate.quality = 0;
   EXPECT_EQ(Sent(estimate).quality, Odometry::kQualityUnknown);
-  estimate.status = Status::kRegistrationFailed;
-  EXPECT_EQ(Sent(estimate).quality, Odometry::kQualityFailed);
+}
+
+TEST(Telemetry, PredictedPose_IsSentAsFailedWithItsCovariance) {
+  // Its quality is still above 0 in the first frames after the last measured one.
+  for (const Status status : {Status::kRegistrationFailed, Status::kEmptyMask,
+                              Status::kInvalidIntrinsics, Status::kMaskSizeMismatch}) {
+    Estimate estimate = Tracked();
+    estimate.status = status;
+    estimate.T_co = {Mat3(Mat3::Identity()), Vec3(0.0F, 0.0F, 0.7F)};
+    const Odometry odometry = Sent(estimate);
+    EXPECT_EQ(odometry.quality, Odometry::kQualityFailed) << Describe(status);
+    EXPECT_EQ(odometry.time_usec, 1'234'567U);
+    EXPECT_EQ(odometry.x, 0.7F);
+    EXPECT_FLOAT_EQ(odometry.pose_covariance[0], 1e-6F);
+    EXPECT_EQ(MakeStatus(estimate, {}).quality, 90);
+  }
 }
 
 TEST(Telemetry, LostObject_HasFailedQuality) {
@@ -55,13 +69,43 @@ TEST(Telemetry, LostObject_HasFailedQuality) {
   EXPECT_EQ(Sent(estimate).quality, Odometry::kQualityFailed);
 }
 
-TEST(Telemetry, PoseOrTwistThatIsNoNumber_HasFailedQuality) {
+void ExpectNoMotionIsSaid(const Odometry& odometry) {
+  EXPECT_EQ(odometry.quality, Odometry::kQualityFailed);
+  for (const float value : {odometry.x, odometry.y, odometry.z, odometry.q[0], odometry.q[1],
+                            odometry.q[2], odometry.q[3], odometry.vx, odometry.vy, odometry.vz,
+                            odometry.rollspeed, odometry.pitchspeed, odometry.yawspeed,
+                            odometry.pose_covariance[0], odometry.velocity_covariance[0]}) {
+    EXPECT_TRUE(std::isnan(value)) << value;
+  }
+}
+
+TEST(Telemetry, RefusedFrame_LeavesWithoutAPose) {
+  // A stamp that was there before, and frames that could not be read.
+  for (const Status status : {Status::kStampNotIncreasing, Status::kTruncated, Status::kCorrupt}) {
+    Estimate estimate = Tracked();
+    estimate.status = status;
+    estimate.has_T_wo = true;
+    ExpectNoMotionIsSaid(Sent(estimate));
+    ExpectNoMotionIsSaid(MakeOdometry(estimate, MavFrame::kLocalFrd));
+    const DisflowStatus said = MakeStatus(estimate, {});
+    EXPECT_EQ(said.status, static_cast<std::uint8_t>(status));
+    EXPECT_EQ(said.quality, 0);
+  }
+}
+
+TEST(Telemetry, FrameBeforeThereIsAModel_LeavesWithoutAPose) {
+  Estimate estimate;
+  estimate.status = Status::kEmptyMask;
+  ExpectNoMotionIsSaid(Sent(estimate));
+}
+
+TEST(Telemetry, PoseOrTwistThatIsNoNumber_LeavesWithoutAPose) {
   Estimate pose = Tracked();
   pose.T_co = {Mat3(Mat3::Identity()), Vec3(0.0F, kNaN, 0.0F)};
-  EXPECT_EQ(Sent(pose).quality, Odometry::kQualityFailed);
+  ExpectNoMotionIsSaid(Sent(pose));
   Estimate twist = Tracked();
   twist.twist.angular_rps.z() = kNaN;
-  EXPECT_EQ(Sent(twist).quality, Odometry::kQualityFailed);
+  ExpectNoMotionIsSaid(Sent(twist));
 }
 
 TEST(Telemetry, KnownCovariance_HasNumbersOnly) {

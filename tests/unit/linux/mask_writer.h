@@ -4,11 +4,15 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "disflow/hal/little_endian.h"
 #include "disflow/posix/file_descriptor.h"
 #include "disflow/posix/mask_stream.h"
 
@@ -56,17 +60,15 @@ class MaskWriter {
  private:
   void Header(std::int64_t stamp_ns, std::uint32_t width, std::uint32_t height,
               std::uint32_t stride) {
-    std::uint8_t header[MaskHeader::kSize] = {};
-    std::memcpy(header, MaskHeader::kMagic, 8);
-    Little(header + 8, sequence_, 8);
-    Little(header + 16, static_cast<std::uint64_t>(stamp_ns), 8);
-    Little(header + 24, width, 4);
-    Little(header + 28, height, 4);
-    Little(header + 32, stride, 4);
-    Put(header, sizeof(header), 0);
-  }
-  static void Little(std::uint8_t* out, std::uint64_t value, int bytes) {
-    for (int i = 0; i < bytes; ++i) out[i] = static_cast<std::uint8_t>(value >> (8 * i));
+    std::array<std::byte, MaskHeader::kSize> header{};
+    std::memcpy(header.data(), MaskHeader::kMagic, 8);
+    const std::span<std::byte> out(header);
+    hal::StoreLittleEndian(sequence_, out.subspan(8));
+    hal::StoreLittleEndian(stamp_ns, out.subspan(16));
+    hal::StoreLittleEndian(width, out.subspan(24));
+    hal::StoreLittleEndian(height, out.subspan(28));
+    hal::StoreLittleEndian(stride, out.subspan(32));
+    Put(reinterpret_cast<const std::uint8_t*>(header.data()), header.size(), 0);
   }
   void Put(const std::uint8_t* bytes, std::size_t size, std::size_t offset) {
     ASSERT_EQ(::pwrite(file_.get(), bytes, size, static_cast<off_t>(offset)),

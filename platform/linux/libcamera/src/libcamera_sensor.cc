@@ -10,13 +10,13 @@
 
 #include "camera/camera_choice.h"
 #include "camera/frame_stamp.h"
-#include "disflow/hal/saturating.h"
 #include "disflow/posix/monotonic_clock.h"
+#include "disflow/saturating.h"
 #include "libcamera_session.h"
 
 namespace disflow::posix {
 
-using hal::AddSaturating;
+using AddSaturating;
 using hal::Fault;
 using hal::MakeFault;
 

@@ -8,7 +8,7 @@
 
 namespace disflow::posix {
 
-using hal::AddSaturating;
+using AddSaturating;
 using hal::Fault;
 
 struct V4l2Sensor::State {

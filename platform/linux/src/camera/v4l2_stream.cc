@@ -7,7 +7,7 @@
 namespace disflow::posix {
 namespace {
 
-using hal::AddSaturating;
+using AddSaturating;
 using hal::Fault;
 using hal::MakeFault;
 

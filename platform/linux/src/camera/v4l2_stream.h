@@ -10,7 +10,7 @@
 #include "camera_search.h"
 #include "disflow/depth/depth_frame.h"
 #include "disflow/hal/depth_sensor.h"
-#include "disflow/hal/saturating.h"
+#include "disflow/saturating.h"
 #include "frame_stamp.h"
 #include "v4l2_buffers.h"
 #include "v4l2_format.h"

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <cstring>
 
-#include "disflow/hal/saturating.h"
+#include "disflow/saturating.h"
 
 namespace disflow::posix {
 namespace {
@@ -67,7 +67,7 @@ Status MaskCamera::DoNewest(Newest& newest) noexcept {
   newest = {current_.pixels.data(), current_.stamp_ns};
   if (has_current_) return Status::kOk;
   const bool is_wrong = status == Status::kUnsupported;
-  hal::AddSaturating(is_wrong ? counters_.wrong_size : counters_.missing);
+  AddSaturating(is_wrong ? counters_.wrong_size : counters_.missing);
   return is_wrong ? Status::kMaskSizeMismatch : Status::kNotFound;
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "disflow/posix/mask_source.h"
 
-#include "disflow/hal/saturating.h"
 #include "disflow/posix/mask_camera.h"
 #include "disflow/posix/mask_stream.h"
+#include "disflow/saturating.h"
 
 namespace disflow::posix {
 
@@ -13,17 +13,17 @@ Status MaskSource::Attach(DepthFrame& frame) noexcept {
   const Status status = DoNewest(newest);
   if (status != Status::kOk) return status;
   if (frame.depth.width_px != width_px_ || frame.depth.height_px != height_px_) {
-    hal::AddSaturating(counters_.wrong_size);
+    AddSaturating(counters_.wrong_size);
     return Status::kMaskSizeMismatch;
   }
   // Stamps may be anything: compared without overflow.
   std::int64_t apart_ns = 0;
   const bool overflow = __builtin_sub_overflow(frame.stamp_ns, newest.stamp_ns, &apart_ns);
   if (overflow || apart_ns > max_age_ns_ || apart_ns < -max_age_ns_) {
-    hal::AddSaturating(counters_.late);
+    AddSaturating(counters_.late);
     return Status::kTimeout;
   }
-  hal::AddSaturating(counters_.used);
+  AddSaturating(counters_.used);
   frame.mask = {newest.data, width_px_, height_px_, width_px_};
   return Status::kOk;
 }

@@ -8,7 +8,8 @@
 #include <atomic>
 #include <cstring>
 
-#include "disflow/hal/saturating.h"
+#include "disflow/hal/little_endian.h"
+#include "disflow/saturating.h"
 
 namespace disflow::posix {
 namespace {
@@ -17,15 +18,6 @@ constexpr std::uint32_t kMaxSide_px = 16384;
 constexpr int kAttempts = 3;
 constexpr std::string_view kFilePrefix = "file:";
 constexpr std::string_view kSharedMemory = "/dev/shm";
-
-template <class T>
-T ReadLittle(std::span<const std::byte> bytes, std::size_t offset) noexcept {
-  std::uint64_t value = 0;
-  for (std::size_t i = 0; i < sizeof(T); ++i) {
-    value |= std::uint64_t{std::to_integer<std::uint8_t>(bytes[offset + i])} << (8 * i);
-  }
-  return static_cast<T>(value);
-}
 
 bool ReadFully(int fd, void* out, std::size_t size, std::size_t offset) noexcept {
   auto* bytes = static_cast<std::byte*>(out);
@@ -49,11 +41,11 @@ std::string PathOf(const std::string& name) {
 
 bool MaskHeader::Parse(std::span<const std::byte, kSize> bytes) noexcept {
   if (std::memcmp(bytes.data(), kMagic, 8) != 0) return false;
-  sequence = ReadLittle<std::uint64_t>(bytes, 8);
-  stamp_ns = ReadLittle<std::int64_t>(bytes, 16);
-  width_px = ReadLittle<std::uint32_t>(bytes, 24);
-  height_px = ReadLittle<std::uint32_t>(bytes, 28);
-  stride_bytes = ReadLittle<std::uint32_t>(bytes, 32);
+  sequence = hal::LoadLittleEndian<std::uint64_t>(bytes.subspan(8));
+  stamp_ns = hal::LoadLittleEndian<std::int64_t>(bytes.subspan(16));
+  width_px = hal::LoadLittleEndian<std::uint32_t>(bytes.subspan(24));
+  height_px = hal::LoadLittleEndian<std::uint32_t>(bytes.subspan(28));
+  stride_bytes = hal::LoadLittleEndian<std::uint32_t>(bytes.subspan(32));
   return width_px > 0 && width_px <= kMaxSide_px && height_px > 0 && height_px <= kMaxSide_px &&
          stride_bytes >= width_px && stride_bytes <= 4 * kMaxSide_px;
 }
@@ -77,18 +69,18 @@ Status MaskStream::DoNewest(Newest& newest) noexcept {
       newest = {mask_.data(), stamp_ns_};
       return Status::kOk;
     case Reading::kMissing:
-      hal::AddSaturating(counters_.missing);
+      AddSaturating(counters_.missing);
       return Status::kNotFound;
     case Reading::kWrongSize:
-      hal::AddSaturating(counters_.wrong_size);
+      AddSaturating(counters_.wrong_size);
       return Status::kMaskSizeMismatch;
     case Reading::kCorrupt:
-      hal::AddSaturating(counters_.corrupt);
+      AddSaturating(counters_.corrupt);
       return Status::kCorrupt;
     case Reading::kTorn:
       break;
   }
-  hal::AddSaturating(counters_.torn);
+  AddSaturating(counters_.torn);
   return Status::kWouldBlock;
 }
 
@@ -98,7 +90,7 @@ MaskStream::Reading MaskStream::ReadNewest() noexcept {
   Reading reading = Reading::kTorn;
   for (int i = 0; i < kAttempts && reading == Reading::kTorn; ++i) reading = ReadOnce();
   if (reading != Reading::kTorn || sequence_ == 0) return reading;
-  hal::AddSaturating(counters_.torn);
+  AddSaturating(counters_.torn);
   // The one before is whole; whether it is still of use its stamp decides.
   return Reading::kUnchanged;
 }

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <type_traits>
 
+#include "disflow/hal/little_endian.h"
 #include "disflow/hal/mavlink/message_traits.h"
 #include "disflow/status.h"
 
@@ -44,13 +44,6 @@ struct FrameView {
   std::span<const std::byte> payload;  ///< Without its trailing zeros.
 };
 
-/// Unsigned integer that holds the bits of T.
-template <class T>
-using WireBits = std::conditional_t<
-    sizeof(T) == 1, std::uint8_t,
-    std::conditional_t<sizeof(T) == 2, std::uint16_t,
-                       std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>>>;
-
 /// Writes fields one after the other, little endian. The span must hold the whole payload.
 class PayloadWriter {
  public:
@@ -70,10 +63,8 @@ class PayloadWriter {
  private:
   template <class T>
   constexpr void Put(const T& value) noexcept {
-    const auto bits = std::bit_cast<WireBits<T>>(value);
-    for (std::size_t i = 0; i < sizeof(T); ++i) {
-      out_[position_++] = static_cast<std::byte>((bits >> (8 * i)) & 0xFFU);
-    }
+    StoreLittleEndian(value, out_.subspan(position_));
+    position_ += sizeof(T);
   }
 
   std::span<std::byte> out_;
@@ -99,13 +90,8 @@ class PayloadReader {
  private:
   template <class T>
   constexpr void Get(T& value) noexcept {
-    WireBits<T> bits = 0;
-    for (std::size_t i = 0; i < sizeof(T); ++i, ++position_) {
-      if (position_ >= in_.size()) continue;
-      const auto byte = static_cast<WireBits<T>>(std::to_integer<std::uint8_t>(in_[position_]));
-      bits = static_cast<WireBits<T>>(bits | static_cast<WireBits<T>>(byte << (8 * i)));
-    }
-    value = std::bit_cast<T>(bits);
+    value = LoadLittleEndian<T>(in_.subspan(std::min(position_, in_.size())));
+    position_ += sizeof(T);
   }
 
   std::span<const std::byte> in_;
@@ -123,7 +109,7 @@ class PayloadReader {
 /// Writes one unsigned frame.
 /// @param out At least kFrameSize<Message> bytes.
 /// @return Bytes written, or kCapacityExceeded if `out` is too small (nothing is written then).
-template <class Message>
+template <KnownMessage Message>
 [[nodiscard]] Expected<std::size_t> EncodeFrame(const Message& message, const FrameHeader& header,
                                                 std::span<std::byte> out) noexcept {
   if (out.size() < kFrameSize<Message>) return {0, Status::kCapacityExceeded};
@@ -135,7 +121,7 @@ template <class Message>
 /// Takes a message out of a checked frame. Missing bytes are zeros, bytes of newer extensions are
 /// ignored.
 /// @return kOk, or kUnsupported if the frame carries another message (`message` is unchanged).
-template <class Message>
+template <KnownMessage Message>
 [[nodiscard]] Status DecodePayload(const FrameView& frame, Message& message) noexcept {
   if (frame.message_id != Message::kId) return Status::kUnsupported;
   PayloadReader reader(frame.payload);

@@ -90,12 +90,24 @@ template <class Message>
   return static_cast<std::uint8_t>((crc & 0xFFU) ^ (crc >> 8U));
 }
 
-// The published figures of the two standard messages prove the rule; the private ones'
-// stand in docs/wire-format.md and must never change.
+template <class Message, class List>
+inline constexpr bool kIsIn = false;
+template <class Message, class... Messages>
+inline constexpr bool kIsIn<Message, MessageList<Messages...>> = (std::same_as<Message, Messages> ||
+                                                                  ...);
+
+/// A message of the list KnownMessages.
+template <class Message>
+concept KnownMessage = kIsIn<Message, KnownMessages>;
+
+// The published figures of the two standard messages prove the rule; the private ones' stand in
+// docs/wire-format.md and must never change.
 static_assert(PayloadSize<Heartbeat>() == 9 && CrcExtra<Heartbeat>() == 50);
 static_assert(PayloadSize<Odometry>() == 233 && CrcExtra<Odometry>() == 91);
 static_assert(PayloadSize<DisflowStatus>() == 76 && CrcExtra<DisflowStatus>() == 237);
 static_assert(PayloadSize<DisflowReady>() == 28 && CrcExtra<DisflowReady>() == 194);
 static_assert(PayloadSize<DisflowTiming>() == 76 && CrcExtra<DisflowTiming>() == 7);
+static_assert(PayloadSize<DisflowQuery>() == 127 && CrcExtra<DisflowQuery>() == 12);
+static_assert(PayloadSize<DisflowField>() == 216 && CrcExtra<DisflowField>() == 94);
 
 }  // namespace disflow::hal::mavlink

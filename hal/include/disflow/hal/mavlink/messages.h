@@ -8,7 +8,7 @@
 
 /// @file
 /// The MAVLink messages that DisFlow speaks, field by field. docs/wire-format.md explains their
-/// meaning and frames; docs/disflow.xml is the definition of the private one.
+/// meaning and frames; docs/disflow.xml defines the private ones, DISFLOW_….
 ///
 /// Every message lists its fields once, in wire order (base fields by falling size, then
 /// extensions); payload size, checksum seed, encoder and decoder are all derived from that list.
@@ -282,5 +282,13 @@ struct DisflowField {
     field("status", message.status);
   }
 };
+
+template <class... Messages>
+struct MessageList {};
+
+/// Every message that there is: no other is recognised by FrameDecoder or taken by EncodeFrame()
+/// and DecodePayload(), so that one that is left out here does not compile.
+using KnownMessages = MessageList<Heartbeat, Odometry, DisflowStatus, DisflowReady, DisflowTiming,
+                                  DisflowQuery, DisflowField>;
 
 }  // namespace disflow::hal::mavlink

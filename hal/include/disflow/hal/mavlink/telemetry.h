@@ -43,8 +43,10 @@ struct SendContext {
 /// A capture stamp as messages carry it; 0 for what lies before the clock's start.
 [[nodiscard]] std::uint64_t MicrosecondsOf(StampNs stamp_ns) noexcept;
 
+/// Pose and twist with a quality from 0 to 100 if they were measured, and with -1 if they are only
+/// predicted; NaN and -1 if the estimate was refused, see EstimateKind.
 /// @param pose_frame See TelemetryOptions.
-[[nodiscard]] Odometry MakeOdometry(const Estimate& estimate, MavFrame pose_frame) noexcept;
+[[nodiscard]] Odometry MakeOdometry(const Estimate& tracked, MavFrame pose_frame) noexcept;
 [[nodiscard]] DisflowStatus MakeStatus(const Estimate& estimate,
                                        const SendContext& context) noexcept;
 [[nodiscard]] Heartbeat MakeHeartbeat(TrackingState state) noexcept;
@@ -74,7 +76,7 @@ class TelemetryEncoder {
   }
 
   /// Any other message in the name of this object.
-  template <class Message>
+  template <KnownMessage Message>
   [[nodiscard]] Expected<std::size_t> EncodeMessage(const Message& message,
                                                     std::span<std::byte> out) noexcept {
     const FrameHeader header{

@@ -5,7 +5,7 @@
 #include <limits>
 #include <type_traits>
 
-namespace disflow::hal {
+namespace disflow {
 
 /// Counts up without ever wrapping to a small number.
 template <std::unsigned_integral Counter>
@@ -14,4 +14,4 @@ constexpr void AddSaturating(Counter& counter, std::type_identity_t<Counter> mor
   counter = more > kMax - counter ? kMax : static_cast<Counter>(counter + more);
 }
 
-}  // namespace disflow::hal
+}  // namespace disflow
