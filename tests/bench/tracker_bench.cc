@@ -30,7 +30,7 @@ std::vector<StoredFrame> RenderAll(host::ObjectKind object, host::MaskKind mask)
   host::SimulationOptions options;
   options.object = object;
   options.motion = host::MotionKind::kFast;
-  options.noise = host::NoiseKind::kD415;
+  options.noise = host::NoiseKind::kWhite;
   options.mask = mask;
   options.frames = kFrames;
   host::Simulation simulation(options, host::MakeObjectMesh(object));

@@ -70,7 +70,7 @@ class TimingTest : public ::testing::TestWithParam<const char*> {
 };
 
 TEST_P(TimingTest, InstructionsPerFrame_AreBoundedAndTheSameInEveryRun) {
-  const std::vector<Frame> frames = MakeSequence(GetParam(), "d415", kWhole);
+  const std::vector<Frame> frames = MakeSequence(GetParam(), "white", kWhole);
   EmulatorOptions options;
   options.icount_shift = kShift;
   const auto answers = RunRecorded(options, frames, kWhole);

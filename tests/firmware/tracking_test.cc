@@ -86,8 +86,8 @@ TEST_P(SequenceTest, CortexM7_ComputesTheHostsPoses) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Fast, SequenceTest,
-                         ::testing::Values(Case{"box", "clean"}, Case{"box", "d415"},
-                                           Case{"bottle", "clean"}, Case{"bottle", "d415"}),
+                         ::testing::Values(Case{"box", "clean"}, Case{"box", "white"},
+                                           Case{"bottle", "clean"}, Case{"bottle", "white"}),
                          [](const auto& instance) {
                            return std::string(instance.param.object) + "_" + instance.param.noise;
                          });

@@ -65,7 +65,7 @@ TEST_F(DistanceFlow, KnownMotion_FlowIsTheVelocityOfEachPoint) {
 }
 
 TEST_F(DistanceFlow, RegisteredFrame_PointsLieOnTheModelAndGradientsAreNormals) {
-  Track(host::NoiseKind::kD415, 20);
+  Track(host::NoiseKind::kWhite, 20);
   double sum_squared_m2 = 0.0;
   int matched = 0;
   for (const FlowSample& sample : flow.samples) {

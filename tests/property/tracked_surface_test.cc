@@ -63,7 +63,7 @@ class TrackedSurface : public ::testing::Test {
     host::SimulationOptions options;
     options.object = object;
     options.motion = motion;
-    options.noise = host::NoiseKind::kD415;
+    options.noise = host::NoiseKind::kWhite;
     options.mask = host::MaskKind::kGt;
     options.frames = frames;
     host::Simulation simulation(options, host::MakeObjectMesh(object));

@@ -59,7 +59,7 @@ before(async () => {
     assert.equal(await peer.do("subscribe", topic, ddsType(type), qos, file(name)), "subscribed");
   }
   const child = run(
-    "--sensor", "sim:bottle?motion=fast&noise=d415", "--rate", "realtime", "--frames", "900", "--headless",
+    "--sensor", "sim:bottle?motion=fast&noise=white", "--rate", "realtime", "--frames", "900", "--headless",
     "--csv", file("pose.csv"), "--link", `dds:domain=${domain}&interface=lo&peer=127.0.0.1`,
   );
   await samplesOf(peer, prefix + "cloud", 3);

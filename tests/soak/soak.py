@@ -37,7 +37,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         # Small images: the loops, counters and buffers are the same, and a sanitizer keeps pace. The stamps of the stream
         # run faster than its name says, so that it is live and at several times real time.
-        image = "width=160&height=90" if arguments.valgrind else "width=320&height=180&noise=d415"
+        image = "width=160&height=90" if arguments.valgrind else "width=320&height=180&noise=white"
         sensor = f"sim:bottle?{image}&frames={frames}&fps={_FPS * arguments.speed:g}&motion=moderate&drop=0.01"
         command = [arguments.program, "--sensor", sensor, "--rate", "live", "--headless", "--link",
                    "udp://127.0.0.1:9", "--csv", f"{folder}/run.csv"]

@@ -2,6 +2,7 @@
 #include "disflow/host/sensor_noise.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -10,20 +11,7 @@
 namespace disflow::host {
 namespace {
 
-constexpr unsigned kQuantileBits = 12;
-constexpr std::size_t kQuantiles = std::size_t{1} << kQuantileBits;
 constexpr float kNoJump = -1.0F;
-
-/// Inverse of the normal distribution function by bisection: slow and exact, used once.
-float NormalQuantile(double probability) {
-  double low = -8.0;
-  double high = 8.0;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (low + high);
-    (0.5 * std::erfc(-middle / std::sqrt(2.0)) < probability ? low : high) = middle;
-  }
-  return static_cast<float>(0.5 * (low + high));
-}
 
 /// Pixels of one row that the second view cannot see, since something nearer hides them there.
 class Shadow {
@@ -59,7 +47,7 @@ void PunchHoles(RandomNumbers& random, double blobs_share, int width, int height
 
 }  // namespace
 
-DisparityModel D415Model(double fx_px) {
+DisparityModel WhiteModel(double fx_px) {
   return {.focal_baseline_px_m = fx_px * 0.055,
           .std_px = 0.08,
           .step_px = 1.0 / 32.0,
@@ -68,6 +56,17 @@ DisparityModel D415Model(double fx_px) {
           .hole_blobs_share = 0.0002,
           .flying_share = 0.35,
           .edge_hole_share = 0.2};
+}
+
+DisparityModel D415Model(double fx_px, int width_px) {
+  const double scale = width_px / 640.0;
+  DisparityModel model = WhiteModel(fx_px);
+  model.image_noise = {
+      .kernel_std_px = 1.5 * scale, .rest_correlation = 0.7, .layer_px = 1.0 * scale};
+  // Two pixels outside the right outline 53 % of the rows still show the object, four outside 11 %.
+  model.fattening_px = 2.115 * scale;
+  model.fattening_std_px = 1.536 * scale;
+  return model;
 }
 
 DisparityModel KinectModel() {
@@ -87,12 +86,46 @@ SensorNoise::SensorNoise(const DisparityModel& model, int width_px, int height_p
       width_(width_px),
       height_(height_px),
       seed_(seed),
-      normal_quantiles_(kQuantiles),
       disparity_px_(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px)),
+      shown_px_(disparity_px_.size()),
       edge_neighbour_px_(disparity_px_.size()) {
-  for (std::size_t i = 0; i < kQuantiles; ++i) {
-    normal_quantiles_[i] =
-        NormalQuantile((static_cast<double>(i) + 0.5) / static_cast<double>(kQuantiles));
+  if (model.image_noise.kernel_std_px > 0.0)
+    image_noise_.emplace(model.image_noise, width_px, height_px, seed);
+}
+
+void SensorNoise::Fatten() {
+  constexpr float kJump_px = 2.0F;
+  // Matched windows reach over an outline on all sides; on the left, the pixels beside it are
+  // hidden from the second view and mostly dropped.
+  struct Side {
+    int du;
+    int dv;
+    double share;
+  };
+  constexpr std::array<Side, 4> kSides{Side{1, 0, 1.0}, Side{-1, 0, 0.3}, Side{0, 1, 0.5},
+                                       Side{0, -1, 0.5}};
+  const auto index = [this](int u, int v) {
+    return static_cast<std::size_t>(v) * static_cast<std::size_t>(width_) +
+           static_cast<std::size_t>(u);
+  };
+  const auto inside = [this](int u, int v) {
+    return u >= 0 && v >= 0 && u < width_ && v < height_;
+  };
+  for (int v = 0; v < height_; ++v) {
+    for (int u = 0; u < width_; ++u) {
+      const float near_px = disparity_px_[index(u, v)];
+      for (const auto& [du, dv, share] : kSides) {
+        if (!inside(u + du, v + dv)) continue;
+        if (near_px - disparity_px_[index(u + du, v + dv)] <= kJump_px) continue;
+        const double noise = static_cast<double>(image_noise_->At(u, v, near_px, 1));
+        const int reach =
+            static_cast<int>(share * (model_.fattening_px + model_.fattening_std_px * noise));
+        for (int k = 1; k <= reach && inside(u + k * du, v + k * dv); ++k) {
+          float& shown_px = shown_px_[index(u + k * du, v + k * dv)];
+          shown_px = std::max(shown_px, near_px);
+        }
+      }
+    }
   }
 }
 
@@ -100,32 +133,33 @@ void SensorNoise::MarkEdges() {
   constexpr float kJump_px = 1.0F;
   std::fill(edge_neighbour_px_.begin(), edge_neighbour_px_.end(), kNoJump);
   const auto compare = [this](std::size_t a, std::size_t b) {
-    if (std::abs(disparity_px_[a] - disparity_px_[b]) <= kJump_px) return;
-    edge_neighbour_px_[a] = disparity_px_[b];
-    edge_neighbour_px_[b] = disparity_px_[a];
+    if (std::abs(shown_px_[a] - shown_px_[b]) <= kJump_px) return;
+    edge_neighbour_px_[a] = shown_px_[b];
+    edge_neighbour_px_[b] = shown_px_[a];
   };
   const auto width = static_cast<std::size_t>(width_);
-  for (std::size_t pixel = 0; pixel + 1 < disparity_px_.size(); ++pixel) {
+  for (std::size_t pixel = 0; pixel + 1 < shown_px_.size(); ++pixel) {
     if ((pixel + 1) % width != 0) compare(pixel, pixel + 1);
-    if (pixel + width < disparity_px_.size()) compare(pixel, pixel + width);
+    if (pixel + width < shown_px_.size()) compare(pixel, pixel + width);
   }
 }
 
-float SensorNoise::MeasurePixel(std::size_t pixel, int u, BitSource& bits) const {
+float SensorNoise::MeasurePixel(int u, int v, BitSource& bits) const {
+  const std::size_t pixel =
+      static_cast<std::size_t>(v) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(u);
   const auto chance = [&bits](double share) {
     constexpr unsigned kBits = 16;
     return static_cast<double>(bits.Take(kBits)) < share * (1U << kBits);
   };
-  const auto normal = [this, &bits] { return normal_quantiles_[bits.Take(kQuantileBits)]; };
-  const bool nothing_there = disparity_px_[pixel] <= 0.0F;
+  const auto normal = [this, &bits] { return normal_.Draw(bits); };
+  const bool nothing_there = shown_px_[pixel] <= 0.0F;
   if (nothing_there || chance(model_.hole_share)) return 0.0F;
-  float disparity_px = disparity_px_[pixel];
+  float disparity_px = shown_px_[pixel];
   if (model_.lateral_std_px > 0.0) {
     const auto shift =
         static_cast<int>(std::lround(static_cast<float>(model_.lateral_std_px) * normal()));
     const int shown = std::clamp(u + shift, 0, width_ - 1);
-    disparity_px =
-        disparity_px_[pixel + static_cast<std::size_t>(shown) - static_cast<std::size_t>(u)];
+    disparity_px = shown_px_[pixel + static_cast<std::size_t>(shown) - static_cast<std::size_t>(u)];
   }
   const float neighbour_px = edge_neighbour_px_[pixel];
   if (neighbour_px != kNoJump) {
@@ -136,7 +170,8 @@ float SensorNoise::MeasurePixel(std::size_t pixel, int u, BitSource& bits) const
       disparity_px += share * (neighbour_px - disparity_px);
     }
   }
-  disparity_px += static_cast<float>(model_.std_px) * normal();
+  const float error = image_noise_ ? image_noise_->At(u, v, disparity_px) : normal();
+  disparity_px += static_cast<float>(model_.std_px) * error;
   const auto step_px = static_cast<float>(model_.step_px);
   // Not std::round, which is a call on plain x86-64; disparities are not negative here.
   const float steps = static_cast<float>(static_cast<int>(disparity_px / step_px + 0.5F));
@@ -154,6 +189,11 @@ void SensorNoise::Apply(int frame, std::span<const float> inverse_depth_per_m,
   for (std::size_t i = 0; i < disparity_px_.size(); ++i) {
     disparity_px_[i] = focal_baseline * inverse_depth_per_m[i];
   }
+  shown_px_ = disparity_px_;
+  if (image_noise_) {
+    image_noise_->StartFrame(frame);
+    Fatten();
+  }
   MarkEdges();
   BitSource bits(random);
   for (int v = 0; v < height_; ++v) {
@@ -161,8 +201,9 @@ void SensorNoise::Apply(int frame, std::span<const float> inverse_depth_per_m,
     Shadow shadow;
     for (int u = width_ - 1; u >= 0; --u) {
       const std::size_t pixel = row + static_cast<std::size_t>(u);
-      const bool hidden = shadow.Covers(u, disparity_px_[pixel]);
-      depth_m[pixel] = hidden ? 0.0F : MeasurePixel(pixel, u, bits);
+      const bool fattened = shown_px_[pixel] > disparity_px_[pixel];
+      const bool hidden = shadow.Covers(u, disparity_px_[pixel]) && !fattened;
+      depth_m[pixel] = hidden ? 0.0F : MeasurePixel(u, v, bits);
     }
   }
   PunchHoles(random, model_.hole_blobs_share, width_, height_, depth_m);

@@ -9,15 +9,11 @@
 
 #include "disflow/host/object_meshes.h"
 #include "disflow/host/random.h"
+#include "scene_label.h"
 #include "smooth_motion.h"
 
 namespace disflow::host {
 namespace {
-
-/// Objects are 1, 2, ...
-enum Label : std::uint32_t { kBackground = 0, kFirstObject = 1, kOccluder = 1000 };
-
-constexpr double kGapBehindObject_m = 0.35;
 
 /// Turns the mesh's longest side upright; then the front towards the camera and the top into view.
 Mat3d StartRotation(ObjectKind object, const TriangleMesh& mesh, std::uint64_t seed) {
@@ -44,13 +40,6 @@ std::vector<bool> ChooseDropped(const SimulationOptions& options) {
   std::vector<bool> dropped(static_cast<std::size_t>(options.frames));
   for (std::size_t i = 1; i < dropped.size(); ++i) dropped[i] = random.Uniform() < options.drop;
   return dropped;
-}
-
-std::optional<SensorNoise> MakeNoise(const SimulationOptions& options) {
-  if (options.noise == NoiseKind::kClean) return std::nullopt;
-  const auto fx_px = static_cast<double>(SimulatedCamera(options).fx_px);
-  return SensorNoise(options.noise == NoiseKind::kD415 ? D415Model(fx_px) : KinectModel(),
-                     options.width_px, options.height_px, options.seed);
 }
 
 /// Where an object is in the image at the start, about.
@@ -97,7 +86,7 @@ Simulation::Simulation(const SimulationOptions& options, std::vector<TriangleMes
       camera_(SimulatedCamera(options)),
       bodies_(MakeBodies(options, std::move(meshes))),
       renderer_(camera_, options.width_px, options.height_px),
-      noise_(MakeNoise(options)),
+      depth_camera_(MakeDepthCamera(options)),
       dropped_(ChooseDropped(options)),
       depth_m_(renderer_.labels().size()),
       depth_mm_(options.format == DepthFormat::kUint16 ? depth_m_.size() : 0),
@@ -160,79 +149,16 @@ FrameTruth Simulation::TruthAt(int index, std::size_t object) const {
   return truth;
 }
 
-void Simulation::DrawScene(int index, const FrameTruth& truth) {
-  double wall_m = 1.5;
-  double table_m = 0.33;
-  for (const Body& body : bodies_) {
-    const Workspace& space = body.workspace;
-    wall_m = std::max(
-        wall_m, space.centre_m.z() + space.half_extent_m.z() + body.radius_m + kGapBehindObject_m);
-    table_m = std::max(table_m, space.half_extent_m.y() + body.radius_m + 0.1);
-  }
-  // A slanted wall and a table top, fixed in the world.
-  const std::array<Plane, 2> planes{
-      Plane{Vec3d(0.25, 0.0, 1.0).normalized(), wall_m * Vec3d(0.25, 0.0, 1.0).normalized().z()},
-      Plane{Vec3d(0.0, 1.0, -0.02).normalized(), table_m}};
-  const Mat3d& R_wc = truth.camera.pose.rotation();
-  renderer_.Clear();
-  for (const Plane& plane : planes) {
-    renderer_.DrawPlane({Vec3d(R_wc.transpose() * plane.normal),
-                         plane.offset_m - plane.normal.dot(truth.camera.pose.translation())});
-  }
-  const double time_s = index / options_.fps;
-  if (options_.support == SupportKind::kTable) renderer_.DrawPlane(TableAt(time_s, truth));
-  DrawBodies(index);
-  DrawOccluder(time_s, truth);
-}
-
-void Simulation::DrawBodies(int index) {
-  constexpr double kGone_s = 1.0;
-  constexpr double kBack_s = 2.0;
-  const double time_s = index / options_.fps;
-  const bool hides = time_s >= kGone_s && time_s < kBack_s;
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const std::size_t number = i + 1;
-    if (hides && static_cast<std::size_t>(options_.hide) == number) continue;
-    renderer_.DrawMesh(bodies_[i].mesh, TruthAt(index, i).object.pose,
-                       kFirstObject + static_cast<std::uint32_t>(i));
-  }
-}
-
-void Simulation::DrawOccluder(double time_s, const FrameTruth& truth) {
-  if (arm_) renderer_.DrawMesh(arm_->mesh(), arm_->PoseAt(time_s, truth.object.pose), kOccluder);
-  if (hand_) renderer_.DrawMesh(hand_->mesh(), hand_->PoseAt(time_s, truth.object.pose), kOccluder);
-  constexpr double kCurtainDown_s = 1.0;
-  constexpr double kCurtainUp_s = 1.5;
-  if (options_.occluder == OccluderKind::kCurtain && time_s >= kCurtainDown_s &&
-      time_s < kCurtainUp_s) {
-    constexpr double kCurtain_m = 0.3;
-    renderer_.DrawPlane({Vec3d::UnitZ(), kCurtain_m}, kOccluder);
-  }
-}
-
-/// Below the object's lowest point, whatever its attitude; camera frame.
-Plane Simulation::TableAt(double time_s, const FrameTruth& truth) const {
-  constexpr double kLiftOff_s = 1.0;
-  constexpr double kLift_mps = 0.3;
-  // Level with the object's start in the world.
-  const Vec3d up = truth.camera.pose.rotation().transpose() *
-                   bodies_.front().motion->At(0.0).pose.rotation() * Vec3d::UnitZ();
-  double lowest_m = std::numeric_limits<double>::max();
-  for (const Vec3d& vertex : bodies_.front().mesh.vertices)
-    lowest_m = std::min(lowest_m, up.dot(truth.object.pose * vertex));
-  return {up, lowest_m - kLift_mps * std::max(0.0, time_s - kLiftOff_s)};
-}
-
 void Simulation::Render(int index, DepthFrame& frame) {
   const FrameTruth truth = TruthAt(index);
-  DrawScene(index, truth);
-  const std::span<const float> inverse_depth = renderer_.inverse_depth_per_m();
-  if (noise_) {
-    noise_->Apply(index, inverse_depth, depth_m_);
-  } else {
-    std::transform(inverse_depth.begin(), inverse_depth.end(), depth_m_.begin(),
-                   [](float w) { return w > 0.0F ? 1.0F / w : 0.0F; });
-  }
+  DrawScene(index, Vec3d::Zero(), renderer_);
+  const SceneView scene{.inverse_depth_per_m = renderer_.inverse_depth_per_m(),
+                        .labels = renderer_.labels(),
+                        .surfaces = Surfaces(index),
+                        .draw_from = [this, index](const Vec3d& eye_m, DepthRenderer& renderer) {
+                          DrawScene(index, eye_m, renderer);
+                        }};
+  depth_camera_->Measure(index, scene, depth_m_);
   DrawMasks(index);
 
   frame = DepthFrame{};
@@ -251,7 +177,7 @@ void Simulation::DrawMasks(int index) {
   std::fill(sloppy_mask_.begin(), sloppy_mask_.end(), std::uint8_t{0});
   // The nearest last, so that it wins where inexact masks overlap.
   for (std::size_t i = bodies_.size(); i-- > 0;) {
-    const auto label = kFirstObject + static_cast<std::uint32_t>(i);
+    const auto label = SceneLabel::kFirstObject + static_cast<std::uint32_t>(i);
     const auto value = static_cast<std::uint8_t>(bodies_.size() == 1 ? 255U : label);
     std::transform(labels.begin(), labels.end(), exact_.begin(), [label](std::uint32_t seen) {
       return static_cast<std::uint8_t>(seen == label ? 255 : 0);
@@ -286,7 +212,8 @@ DepthView Simulation::DepthToDeliver() {
 }
 
 MaskView Simulation::ViewOf(std::span<const std::uint8_t> mask) const {
-  return {mask.data(), options_.width_px, options_.height_px, options_.width_px};
+  return {mask.empty() ? nullptr : mask.data(), options_.width_px, options_.height_px,
+          options_.width_px};
 }
 
 TriangleMesh MakeObjectMesh(ObjectKind object) {

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "disflow/host/option_value.h"
+#include "disflow/host/stereo_camera.h"
 
 namespace disflow::host {
 namespace {
@@ -22,8 +23,12 @@ constexpr std::array kMotions{Choice<MotionKind>{"static", MotionKind::kStatic},
                               Choice<MotionKind>{"flying", MotionKind::kFlying},
                               Choice<MotionKind>{"leaving", MotionKind::kLeaving}};
 constexpr std::array kNoises{Choice<NoiseKind>{"clean", NoiseKind::kClean},
+                             Choice<NoiseKind>{"white", NoiseKind::kWhite},
                              Choice<NoiseKind>{"d415", NoiseKind::kD415},
-                             Choice<NoiseKind>{"kinect", NoiseKind::kKinect}};
+                             Choice<NoiseKind>{"kinect", NoiseKind::kKinect},
+                             Choice<NoiseKind>{"tof", NoiseKind::kTof},
+                             Choice<NoiseKind>{"stereo", NoiseKind::kStereo},
+                             Choice<NoiseKind>{"stereo-raw", NoiseKind::kStereoRaw}};
 constexpr std::array kOccluders{Choice<OccluderKind>{"none", OccluderKind::kNone},
                                 Choice<OccluderKind>{"arm", OccluderKind::kArm},
                                 Choice<OccluderKind>{"curtain", OccluderKind::kCurtain},
@@ -89,8 +94,30 @@ constexpr Option NumberOption(std::string_view key) {
 }
 
 using Options = SimulationOptions;
+
+constexpr Option NoiseOption() {
+  constexpr Option kPlain = ChoiceOption<&Options::noise, kNoises>("noise");
+  return {kPlain.key,
+          [](std::string_view key, std::string_view value, SimulationOptions& options) {
+            Options wanted = options;
+            const hal::Fault fault = kPlain.set(key, value, wanted);
+            if (!fault.ok()) return fault;
+            const bool is_stereo =
+                wanted.noise == NoiseKind::kStereo || wanted.noise == NoiseKind::kStereoRaw;
+            if (is_stereo && !StereoIsAvailable()) {
+              return hal::MakeFault(
+                  Status::kUnsupported,
+                  "noise=%.*s: built without OpenCV: install libopencv-calib3d-dev, build again",
+                  static_cast<int>(value.size()), value.data());
+            }
+            options.noise = wanted.noise;
+            return hal::Fault{};
+          },
+          kPlain.allowed};
+}
+
 constexpr std::array kOptions{ChoiceOption<&Options::motion, kMotions>("motion"),
-                              ChoiceOption<&Options::noise, kNoises>("noise"),
+                              NoiseOption(),
                               NumberOption<&Options::seed, kSeed>("seed"),
                               NumberOption<&Options::frames, kFrames>("frames"),
                               NumberOption<&Options::fps, kFps>("fps"),

@@ -40,14 +40,14 @@ void ExpectSameFigures(const std::string& a, const std::string& b) {
 
 TEST_F(SimulatedSequence, JudgedByItsAddress_HasTheFiguresOfItsFiles) {
   constexpr const char* kAddress =
-      "sim:bottle?motion=fast&noise=d415&seed=4&frames=20&drop=0.2&width=320&height=180";
+      "sim:bottle?motion=fast&noise=white&seed=4&frames=20&drop=0.2&width=320&height=180";
   ASSERT_EQ(RunTrack({"--sensor", kAddress, "--csv", Path("run.csv"), "--mesh", Path("run.ply"),
                       "--headless"},
                      scratch())
                 .exit_status,
             0);
   ASSERT_EQ(
-      RunSim({Path("files"), "--object", "bottle", "--motion", "fast", "--noise", "d415", "--seed",
+      RunSim({Path("files"), "--object", "bottle", "--motion", "fast", "--noise", "white", "--seed",
               "4", "--frames", "20", "--drop", "0.2", "--width", "320", "--height", "180"},
              scratch())
           .exit_status,
@@ -71,7 +71,7 @@ TEST_F(SimulatedSequence, JudgedByItsAddress_HasTheFiguresOfItsFiles) {
 }
 
 TEST_F(SimulatedSequence, NoisySurface_KnowsHowFarOffItIs) {
-  constexpr const char* kAddress = "sim:bottle?motion=rotate360&noise=d415&seed=2&frames=120";
+  constexpr const char* kAddress = "sim:bottle?motion=rotate360&noise=white&seed=2&frames=120";
   ASSERT_EQ(RunTrack({"--sensor", kAddress, "--csv", Path("run.csv"), "--mesh", Path("run.ply"),
                       "--headless"},
                      scratch())

@@ -35,7 +35,7 @@ host::SimulationOptions HardScene() {
   host::SimulationOptions options = SmallPictures();
   options.object = host::ObjectKind::kBottle;
   options.motion = host::MotionKind::kFast;
-  options.noise = host::NoiseKind::kD415;
+  options.noise = host::NoiseKind::kWhite;
   options.occluder = host::OccluderKind::kArm;
   options.camera = host::CameraKind::kMoving;
   options.mask = host::MaskKind::kNone;

@@ -45,7 +45,7 @@ TEST_F(LiveTest, FramesFasterThanTheTracker_AreDroppedAndCounted) {
 }
 
 TEST_F(LiveTest, PaceOfTheStamps_ChangesNothingAndDropsNothing) {
-  const std::string sensor = "sim:box?motion=fast&noise=d415&frames=20";
+  const std::string sensor = "sim:box?motion=fast&noise=white&frames=20";
   for (const char* rate : {"max", "realtime"}) {
     const Outcome outcome = RunTrack({"--sensor", sensor, "--rate", rate, "--csv",
                                       Path(std::string(rate) + ".csv"), "--no-timing"},
@@ -129,7 +129,7 @@ TEST_F(ServiceTest, StartThatFails_IsNeverCalledReady) {
 class RunFileTest : public ScratchFolderTest {};
 
 TEST_F(RunFileTest, WholeCommandLineInTheFile_GivesTheSameRun) {
-  const std::string sensor = "sim:bottle?motion=fast&noise=d415&frames=15&width=240&height=180";
+  const std::string sensor = "sim:bottle?motion=fast&noise=white&frames=15&width=240&height=180";
   const Outcome typed =
       RunTrack({"--sensor", sensor, "--csv", Path("typed.csv"), "--no-timing", "--range", "0.2,1.5",
                 "--profile", "micro", "--set", "registration.iterations=7"},
@@ -181,7 +181,7 @@ TEST_F(LiveTest, FourTimesAsManyFrames_TakeNoMoreAllocations) {
   for (const char* rate : {"max", "live"}) {
     const auto run = [&](int frames) {
       return AllocationsOf(
-          {"--sensor", "sim:box?motion=fast&noise=d415&fps=300&frames=240", "--rate", rate,
+          {"--sensor", "sim:box?motion=fast&noise=white&fps=300&frames=240", "--rate", rate,
            "--frames", std::to_string(frames), "--headless", "--link", "udp://127.0.0.1:9", "--csv",
            "/dev/null", "--mask-stream", "/disflow-nobody-writes"},
           scratch());
@@ -197,7 +197,7 @@ TEST_F(LiveTest, FourTimesAsManyFramesOfTwoObjects_TakeNoMoreAllocations) {
   constexpr double kStringsOfTheReport = 20.0;
   const auto run = [&](int frames) {
     return AllocationsOf(
-        {"--sensor", "sim:box+bottle?noise=d415&frames=240", "--threads", "2", "--object",
+        {"--sensor", "sim:box+bottle?noise=white&frames=240", "--threads", "2", "--object",
          "name=box,label=1", "--object", "name=bottle,label=2", "--frames", std::to_string(frames),
          "--headless", "--link", "udp://127.0.0.1:9", "--csv", Path("run.csv")},
         scratch());

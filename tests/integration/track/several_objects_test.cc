@@ -29,7 +29,7 @@ class SeveralObjectsTest : public ScratchFolderTest {
   }
 };
 
-constexpr const char* kTwo = "sim:box+bottle?noise=d415&frames=60";
+constexpr const char* kTwo = "sim:box+bottle?noise=white&frames=60";
 
 TEST_F(SeveralObjectsTest, AnyNumberOfThreads_GivesTheSameBytes) {
   for (const char* threads : {"1", "2", "4"}) {
@@ -72,7 +72,7 @@ TEST_F(SeveralObjectsTest, HiddenOne_LeavesTheBytesOfTheOthersAsTheyAre) {
 
 TEST_F(SeveralObjectsTest, RecordedMasksOfEach_GiveTheSameAsTheSimulation) {
   ASSERT_EQ(
-      RunSim({Path("sequence"), "--object", "box+bottle", "--noise", "d415", "--frames", "60"},
+      RunSim({Path("sequence"), "--object", "box+bottle", "--noise", "white", "--frames", "60"},
              scratch())
           .exit_status,
       0);

@@ -41,16 +41,16 @@ TEST_P(SimulatedScene, IsTracked) {
 
 INSTANTIATE_TEST_SUITE_P(Tracking, SimulatedScene,
                          testing::Values(Scene{"BottleFastClean", "bottle", "fast", "clean", 0.97},
-                                         Scene{"BoxFastD415", "box", "fast", "d415", 0.95},
+                                         Scene{"BoxFastWhite", "box", "fast", "white", 0.95},
                                          Scene{"DoughnutModerateD415", "doughnut", "moderate",
-                                               "d415", 0.95}),
+                                               "white", 0.95}),
                          [](const testing::TestParamInfo<Scene>& test) { return test.param.name; });
 
 class TrackingTest : public ScratchFolderTest {};
 
 TEST_F(TrackingTest, TwoRunsOfOneReplay_GiveTheSameBytes) {
   const Outcome recorded = RunTrack(
-      {"--sensor", "sim:box?motion=fast&noise=d415&frames=40", "--record", Path("recorded")},
+      {"--sensor", "sim:box?motion=fast&noise=white&frames=40", "--record", Path("recorded")},
       scratch());
   ASSERT_EQ(recorded.exit_status, 0) << recorded.err;
   for (const char* run : {"a", "b"}) {
@@ -66,7 +66,7 @@ TEST_F(TrackingTest, TwoRunsOfOneReplay_GiveTheSameBytes) {
 }
 
 TEST_F(TrackingTest, RecordedFrames_ReplayToTheSameTrajectory) {
-  const Outcome live = RunTrack({"--sensor", "sim:box?motion=fast&noise=d415&frames=20", "--record",
+  const Outcome live = RunTrack({"--sensor", "sim:box?motion=fast&noise=white&frames=20", "--record",
                                  Path("recorded"), "--csv", Path("live.csv"), "--no-timing"},
                                 scratch());
   ASSERT_EQ(live.exit_status, 0) << live.err;

@@ -113,7 +113,7 @@ TEST(SeveralObjects, LabelWithoutAMask_StartsNothingButGoesOn) {
 }
 
 TEST(SeveralObjects, WithoutMasks_KeepToThemselves) {
-  for (const host::NoiseKind noise : {host::NoiseKind::kClean, host::NoiseKind::kD415}) {
+  for (const host::NoiseKind noise : {host::NoiseKind::kClean, host::NoiseKind::kWhite}) {
     host::SimulationOptions options = BoxBeforeBottle(150);
     options.noise = noise;
     options.mask = host::MaskKind::kNone;

@@ -114,7 +114,7 @@ inline host::SimulationOptions Scene(host::ObjectKind object, int frames) {
   host::SimulationOptions options;
   options.object = object;
   options.motion = host::MotionKind::kModerate;
-  options.noise = host::NoiseKind::kD415;
+  options.noise = host::NoiseKind::kWhite;
   options.frames = frames;
   return options;
 }

@@ -22,7 +22,7 @@ TrackedSequence Track(host::ObjectKind object, host::NoiseKind noise) {
 }
 
 TEST(WeakAxis, OfACan_IsNamed) {
-  const TrackedSequence sequence = Track(host::ObjectKind::kCan, host::NoiseKind::kD415);
+  const TrackedSequence sequence = Track(host::ObjectKind::kCan, host::NoiseKind::kWhite);
   for (const TrackedFrame& frame : sequence.frames()) {
     if (frame.index < kSettled) continue;
     const WeakDirection& weak = frame.estimate.weak;
@@ -40,7 +40,7 @@ TEST(WeakAxis, OfACan_IsNamed) {
 
 // A can's turn about its axis adds up unseen; neither the state nor the covariance hides that.
 TEST(WeakAxis, TurnOfACan_IsNeverClaimedToBeKnown) {
-  const TrackedSequence sequence = Track(host::ObjectKind::kCan, host::NoiseKind::kD415);
+  const TrackedSequence sequence = Track(host::ObjectKind::kCan, host::NoiseKind::kWhite);
   ASSERT_GT(sequence.last().off_deg, 10.0);
   EXPECT_EQ(sequence.LongestLie(), 0);
   for (const TrackedFrame& frame : sequence.frames()) {
@@ -52,7 +52,7 @@ TEST(WeakAxis, TurnOfACan_IsNeverClaimedToBeKnown) {
 }
 
 TEST(WeakAxis, OfABox_IsNeverNamed) {
-  const TrackedSequence sequence = Track(host::ObjectKind::kBox, host::NoiseKind::kD415);
+  const TrackedSequence sequence = Track(host::ObjectKind::kBox, host::NoiseKind::kWhite);
   for (const TrackedFrame& frame : sequence.frames())
     EXPECT_EQ(frame.estimate.weak.kind, WeakKind::kNone) << "frame " << frame.index;
 }

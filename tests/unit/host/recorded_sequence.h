@@ -58,7 +58,7 @@ class RecordedSequence : public testing::Test {
   static SimulationOptions Options() {
     SimulationOptions options;
     options.motion = MotionKind::kFast;
-    options.noise = NoiseKind::kD415;
+    options.noise = NoiseKind::kWhite;
     options.frames = kFrames;
     options.width_px = 64;
     options.height_px = 48;

@@ -39,8 +39,8 @@ std::vector<float> Step(double near_m, double far_m) {
 
 class NoiseOfDepth : public testing::TestWithParam<double> {};
 
-TEST_P(NoiseOfDepth, D415_DisparityErrorHasTheModelsDeviationAndNoBias) {
-  const DisparityModel model = D415Model(kFocal_px);
+TEST_P(NoiseOfDepth, White_DisparityErrorHasTheModelsDeviationAndNoBias) {
+  const DisparityModel model = WhiteModel(kFocal_px);
   const double fb = model.focal_baseline_px_m;
   EXPECT_NEAR(fb, kFocal_px * 0.055, 1e-9);
   double sum = 0.0;
@@ -59,8 +59,8 @@ TEST_P(NoiseOfDepth, D415_DisparityErrorHasTheModelsDeviationAndNoBias) {
   EXPECT_NEAR(sum / count, 0.0, 4.0 * expected_px / std::sqrt(count));
 }
 
-TEST_P(NoiseOfDepth, D415_DisparitiesAreMultiplesOfA32ndPixel) {
-  const DisparityModel model = D415Model(kFocal_px);
+TEST_P(NoiseOfDepth, White_DisparitiesAreMultiplesOfA32ndPixel) {
+  const DisparityModel model = WhiteModel(kFocal_px);
   for (const float depth_m : Measure(model, Wall(GetParam()))) {
     if (depth_m == 0.0F) continue;
     const double steps = 32.0 * model.focal_baseline_px_m / static_cast<double>(depth_m);
@@ -79,9 +79,9 @@ TEST_P(NoiseOfDepth, Kinect_DisparitiesAreMultiplesOfAnEighthPixel) {
 
 INSTANTIATE_TEST_SUITE_P(Metres, NoiseOfDepth, testing::Values(0.5, 0.7123, 1.6));
 
-TEST(SensorNoise, Neighbours_AreIndependent) {
+TEST(SensorNoise, NeighboursOfWhiteNoise_AreIndependent) {
   const double depth_m = 0.7;
-  const std::vector<float> measured = Measure(D415Model(kFocal_px), Wall(depth_m));
+  const std::vector<float> measured = Measure(WhiteModel(kFocal_px), Wall(depth_m));
   double product = 0.0;
   double square = 0.0;
   for (std::size_t i = 0; i + 1 < kPixels; ++i) {
@@ -94,14 +94,14 @@ TEST(SensorNoise, Neighbours_AreIndependent) {
 }
 
 TEST(SensorNoise, Holes_AreFewAndThere) {
-  const std::vector<float> measured = Measure(D415Model(kFocal_px), Wall(0.7));
+  const std::vector<float> measured = Measure(WhiteModel(kFocal_px), Wall(0.7));
   const auto holes = std::count(measured.begin(), measured.end(), 0.0F);
   EXPECT_GT(holes, static_cast<std::ptrdiff_t>(0.002 * kPixels));
   EXPECT_LT(holes, static_cast<std::ptrdiff_t>(0.01 * kPixels));
 }
 
 TEST(SensorNoise, Shadow_LiesOnTheLeftOfNearThings) {
-  const DisparityModel model = D415Model(kFocal_px);
+  const DisparityModel model = WhiteModel(kFocal_px);
   const std::vector<float> measured = Measure(model, Step(0.6, 1.5));
   const int width = static_cast<int>(model.focal_baseline_px_m * (1.0 / 0.6 - 1.0 / 1.5));  // 33 px
   ASSERT_GT(width, 20);
@@ -120,7 +120,7 @@ TEST(SensorNoise, Shadow_LiesOnTheLeftOfNearThings) {
 TEST(SensorNoise, FlyingPixels_AreAtDepthJumpsOnly) {
   const double near_m = 0.6;
   const double far_m = 1.5;
-  const std::vector<float> measured = Measure(D415Model(kFocal_px), Step(near_m, far_m));
+  const std::vector<float> measured = Measure(WhiteModel(kFocal_px), Step(near_m, far_m));
   int flying_at_edge = 0;
   for (int v = 0; v < kHeight_px; ++v) {
     for (int u = 0; u < kWidth_px; ++u) {
@@ -141,7 +141,7 @@ TEST(SensorNoise, FlyingPixels_AreAtDepthJumpsOnly) {
 }
 
 TEST(SensorNoise, SameSeedAndFrame_GiveTheSameBytesInAnyOrder) {
-  const DisparityModel model = D415Model(kFocal_px);
+  const DisparityModel model = WhiteModel(kFocal_px);
   SensorNoise noise(model, kWidth_px, kHeight_px, 4);
   std::vector<float> third(kPixels);
   std::vector<float> again(kPixels);
@@ -155,7 +155,7 @@ TEST(SensorNoise, SameSeedAndFrame_GiveTheSameBytesInAnyOrder) {
 
 TEST(SensorNoise, NothingThere_StaysNothing) {
   const std::vector<float> nothing(kPixels, 0.0F);
-  for (const DisparityModel& model : {D415Model(kFocal_px), KinectModel()}) {
+  for (const DisparityModel& model : {WhiteModel(kFocal_px), KinectModel()}) {
     EXPECT_EQ(Measure(model, nothing), nothing);
   }
 }

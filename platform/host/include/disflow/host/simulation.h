@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "disflow/host/camera_motion.h"
+#include "disflow/host/depth_camera.h"
 #include "disflow/host/depth_renderer.h"
 #include "disflow/host/motion.h"
 #include "disflow/host/occluding_arm.h"
-#include "disflow/host/sensor_noise.h"
 #include "disflow/host/simulation_options.h"
 #include "disflow/host/sloppy_mask.h"
 #include "disflow/host/touching_hand.h"
@@ -51,6 +51,9 @@ class Simulation {
   [[nodiscard]] MaskView gt_mask() const { return ViewOf(gt_mask_); }
   [[nodiscard]] MaskView sloppy_mask() const { return ViewOf(sloppy_mask_); }
 
+  /// The left infrared image of the image rendered last; no data unless the camera has one.
+  [[nodiscard]] MaskView infrared() const { return ViewOf(depth_camera_->infrared()); }
+
   [[nodiscard]] const SimulationOptions& options() const { return options_; }
   [[nodiscard]] std::size_t objects() const { return bodies_.size(); }
   [[nodiscard]] const TriangleMesh& mesh(std::size_t object = 0) const {
@@ -69,10 +72,13 @@ class Simulation {
 
   [[nodiscard]] static std::vector<Body> MakeBodies(const SimulationOptions& options,
                                                     std::vector<TriangleMesh> meshes);
-  void DrawBodies(int index);
+  /// @param eye_m Where it is seen from, in the camera's frame.
+  void DrawScene(int index, const Vec3d& eye_m, DepthRenderer& renderer) const;
+  void DrawBodies(int index, const Vec3d& eye_m, DepthRenderer& renderer) const;
+  void DrawOccluder(double time_s, const FrameTruth& truth, const Vec3d& eye_m,
+                    DepthRenderer& renderer) const;
+  [[nodiscard]] std::vector<PaintedSurface> Surfaces(int index) const;
   void DrawMasks(int index);
-  void DrawScene(int index, const FrameTruth& truth);
-  void DrawOccluder(double time_s, const FrameTruth& truth);
   [[nodiscard]] Plane TableAt(double time_s, const FrameTruth& truth) const;
   [[nodiscard]] DepthView DepthToDeliver();
   [[nodiscard]] MaskView ViewOf(std::span<const std::uint8_t> mask) const;
@@ -84,7 +90,7 @@ class Simulation {
   std::optional<OccludingArm> arm_;
   std::optional<TouchingHand> hand_;
   DepthRenderer renderer_;
-  std::optional<SensorNoise> noise_;
+  std::unique_ptr<DepthCamera> depth_camera_;
   std::vector<bool> dropped_;
   std::vector<float> depth_m_;
   std::vector<std::uint16_t> depth_mm_;

@@ -21,7 +21,15 @@ enum class MotionKind : std::uint8_t {
   kFlying,     ///< Peaks of 1.2 m/s and 500 deg/s with velocity jumps between frames.
   kLeaving,    ///< Out of the view after a second, back a second later.
 };
-enum class NoiseKind : std::uint8_t { kClean, kD415, kKinect };
+enum class NoiseKind : std::uint8_t {
+  kClean,
+  kWhite,  ///< Spread of a D415, independent from pixel to pixel and frame to frame.
+  kD415,   ///< The same spread, correlated in space and time; fattened outlines.
+  kKinect,
+  kTof,        ///< Time of flight.
+  kStereo,     ///< Rendered infrared images, matched and refined; needs OpenCV.
+  kStereoRaw,  ///< The same, badly matched.
+};
 enum class OccluderKind : std::uint8_t {
   kNone,
   kArm,      ///< A forearm passes in front and hides up to half of the object.
