@@ -16,7 +16,6 @@
 
 namespace disflow::posix {
 
-using AddSaturating;
 using hal::Fault;
 using hal::MakeFault;
 

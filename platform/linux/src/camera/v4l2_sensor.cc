@@ -8,7 +8,6 @@
 
 namespace disflow::posix {
 
-using AddSaturating;
 using hal::Fault;
 
 struct V4l2Sensor::State {

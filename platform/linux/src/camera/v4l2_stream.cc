@@ -7,7 +7,6 @@
 namespace disflow::posix {
 namespace {
 
-using AddSaturating;
 using hal::Fault;
 using hal::MakeFault;
 
