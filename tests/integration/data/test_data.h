@@ -18,5 +18,5 @@ namespace disflow::test {
 /// Leaves the test with a reason if a recording is not there.
 #define DISFLOW_SKIP_WITHOUT(folder)                                                \
   if (!std::filesystem::exists(folder))                                             \
-  GTEST_SKIP() << (folder) << " is not there; set DISFLOW_TEST_DATA to the folder " \
-               << "that holds the recordings"
+  GTEST_SKIP() << "recordings of real cameras; set DISFLOW_TEST_DATA to the folder " \
+               << "that holds them (" << (folder) << " is not there)"
