@@ -8,6 +8,7 @@
 #include "run/run.h"
 #include "settings/options.h"
 #include "settings/settings.h"
+#include "version.h"
 
 namespace disflow::apps {
 namespace {
@@ -24,6 +25,7 @@ ExitStatus Main(int argc, char** argv) {
   bool exit_now = false;
   const Options options = ParseCommandLine(argc, argv, exit_now);
   if (exit_now) return kDone;
+  if (options.print_version) return Print(VersionText());
   if (options.list_sensors) return Print(ListSensors());
   if (options.print_settings_table) return Print(FormatSettingsPage());
   if (options.print_config) return Print(FormatSettings(options.config));

@@ -257,8 +257,9 @@ Options ParseCommandLine(int argc, char** argv, bool& exit_now) {
   Options options;
   SettingSources settings;
   CLI::App app(kDescription, "disflow_track");
-  app.footer(std::string("Sensors:\n") + posix::kCameraAddressHelp + host::SensorHelp() + kLinksAndStatus);
-  app.set_version_flag("--version", "disflow_track " DISFLOW_VERSION " (" DISFLOW_BUILD ")");
+  app.footer(std::string("Sensors:\n") + posix::kCameraAddressHelp + host::SensorHelp() +
+             kLinksAndStatus);
+  app.add_flag("--version", options.print_version, "Show version and what is built in, and end");
   AddInput(app, options, settings);
   AddObject(app, options, settings);
   AddCameraPose(app, options.camera_pose);
@@ -274,6 +275,7 @@ Options ParseCommandLine(int argc, char** argv, bool& exit_now) {
   } catch (const CLI::ParseError& error) {
     throw Failure(kWrongUsage, std::string(error.what()) + "; see disflow_track --help");
   }
+  if (options.print_version) return options;
   ReadSettings(app, settings, options);
   CheckResolution(options);
   SplitLinks(options);

@@ -51,9 +51,10 @@ struct Options {
   bool list_sensors = false;
   bool print_config = false;
   bool print_settings_table = false;
+  bool print_version = false;
 };
 
-/// Reads the command line; answers --help and --version itself.
+/// Reads the command line; answers --help itself.
 /// @param exit_now Set if the program has nothing left to do but to end with status 0.
 /// @throws Failure kWrongUsage.
 [[nodiscard]] Options ParseCommandLine(int argc, char** argv, bool& exit_now);

@@ -1,0 +1,59 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# The functions of ./dev, on a machine whose package database is made up.
+# shellcheck source=/dev/null
+source "$(dirname "${BASH_SOURCE[0]}")/../../../dev"
+unset CI
+failures=0
+expect() { # expect EXIT_STATUS COMMAND...: what is called must hold
+  local wanted="$1" status=0
+  shift
+  ("$@") >/dev/null 2>&1 || status=$?
+  [ "$status" -eq "$wanted" ] || {
+    echo "$*: status $status, $wanted was expected"
+    failures=$((failures + 1))
+  }
+}
+
+# --- is_installed: only packages of the architecture asked for count
+dpkg() { echo amd64; }
+dpkg-query() {
+  case "${!#}" in
+    libforeign-dev) echo "installed arm64" ;;
+    libboth-dev) printf 'installed amd64\ninstalled arm64\n' ;;
+    libheaders-dev) echo "installed all" ;;
+    libremoved-dev) echo "config-files amd64" ;;
+    *) return 1 ;;
+  esac
+}
+expect 1 is_installed libforeign-dev
+expect 0 is_installed libforeign-dev:arm64
+expect 0 is_installed libboth-dev
+expect 0 is_installed libboth-dev:arm64
+expect 1 is_installed libboth-dev:armhf
+expect 0 is_installed libheaders-dev
+expect 0 is_installed libheaders-dev:arm64
+expect 1 is_installed libremoved-dev
+expect 1 is_installed libnever-dev
+expect 0 is_installed bash@bash
+expect 1 is_installed no-such-command@no-such-package
+
+# --- package_exists: much output is no failure (a pipe into grep -q would end with SIGPIPE)
+apt-cache() { [ "$2" = known ] && yes 'Maintainer: Debian' | head -c 1000000; }
+expect 0 package_exists known
+expect 1 package_exists unknown
+
+# --- skip: a remark on a developer's machine, a failure on CI
+expect 0 skip "no browser"
+skip_on_ci() { CI=1 skip "no browser"; }
+expect 1 skip_on_ci
+
+# --- build: options are told from mistakes before anything is installed
+need() { exit 42; }
+expect 42 build release -DDISFLOW_WITH_VIEW=OFF --target disflow_track
+expect 1 build release --no-such-option
+expect 1 run_tests --repeat
+expect 1 run_tests --repeat none
+
+[ "$failures" -eq 0 ] || exit 1
+echo "all as expected"
