@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Functions that judge the compile commands of a consumer's build.
+
+# Every file that is compiled must lie in core, in hal or in the consumer itself.
+function(check_only_core_and_hal_are_built build source project)
+  file(READ ${build}/compile_commands.json commands)
+  string(JSON count LENGTH "${commands}")
+  math(EXPR last "${count} - 1")
+  foreach(index RANGE ${last})
+    string(JSON path GET "${commands}" ${index} file)
+    cmake_path(IS_PREFIX source ${path} NORMALIZE is_of_library)
+    cmake_path(IS_PREFIX project ${path} NORMALIZE is_of_consumer)
+    if(is_of_library AND NOT is_of_consumer AND NOT path MATCHES "^${source}/(core|hal)/src/")
+      message(FATAL_ERROR "${path} is compiled, though only core and hal were wanted")
+    endif()
+  endforeach()
+  file(GLOB_RECURSE sources ${source}/core/src/*.cc ${source}/hal/src/*.cc)
+  list(LENGTH sources most)
+  math(EXPR most "${most} + 1")
+  if(count GREATER most)
+    message(FATAL_ERROR "${count} files are compiled, at most ${most} were expected")
+  endif()
+  message(STATUS "${count} files are compiled")
+endfunction()
+
+# Every compile command, the consumer's own included, must match.
+function(check_all_commands_match build pattern)
+  file(READ ${build}/compile_commands.json commands)
+  string(JSON count LENGTH "${commands}")
+  math(EXPR last "${count} - 1")
+  foreach(index RANGE ${last})
+    string(JSON command GET "${commands}" ${index} command)
+    if(NOT command MATCHES "${pattern}")
+      message(FATAL_ERROR "no ${pattern} in: ${command}")
+    endif()
+  endforeach()
+endfunction()
