@@ -16,7 +16,7 @@ namespace disflow::test {
 }  // namespace disflow::test
 
 /// Leaves the test with a reason if a recording is not there.
-#define DISFLOW_SKIP_WITHOUT(folder)                                                \
-  if (!std::filesystem::exists(folder))                                             \
+#define DISFLOW_SKIP_WITHOUT(folder)                                                 \
+  if (!std::filesystem::exists(folder))                                              \
   GTEST_SKIP() << "recordings of real cameras; set DISFLOW_TEST_DATA to the folder " \
                << "that holds them (" << (folder) << " is not there)"
