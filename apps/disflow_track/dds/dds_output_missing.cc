@@ -14,8 +14,8 @@ DdsOutput::DdsOutput(const std::string& uri, std::span<ObjectChannel* const>, bo
   if (uri.empty()) return;
   (void)ParseDdsAddress(uri);
   throw Failure(kWrongUsage, "link '" + uri +
-                                 "': this program was built without DDS; install cyclonedds-dev "
-                                 "and cyclonedds-tools and build it again");
+                                 "': this program was built without DDS "
+                                 "(DISFLOW_WITH_DDS=OFF)");
 }
 
 DdsOutput::~DdsOutput() = default;

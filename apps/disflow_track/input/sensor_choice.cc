@@ -22,8 +22,8 @@ Fault OpenCamera(const std::string& uri, host::Sensor& sensor) {
 #ifndef DISFLOW_HAS_LIBCAMERA
   if (address.kind == CameraAddress::Kind::kLibcamera) {
     return hal::MakeFault(Status::kUnsupported,
-                          "%s: this disflow_track was built without libcamera; install "
-                          "libcamera-dev and build again, or use v4l2:",
+                          "%s: this disflow_track was built without libcamera "
+                          "(DISFLOW_WITH_LIBCAMERA=OFF); build it with, or use v4l2:",
                           uri.c_str());
   }
 #endif

@@ -89,8 +89,7 @@ ViewOutput::ViewOutput(const ViewOptions& options, std::span<ObjectChannel* cons
     : hold_(options.hold), console_(console) {
   if (options.address.empty()) return;
   throw Failure(kWrongUsage,
-                "--view: this program was built without the live view; on Debian install "
-                "libwebsockets-dev, nodejs and npm, then build it again with ./dev build");
+                "--view: this program was built without the live view (DISFLOW_WITH_VIEW=OFF)");
 }
 
 void ViewOutput::EndOfInput() {}
