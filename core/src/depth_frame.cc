@@ -13,6 +13,10 @@ bool HasRigidRotation(const Transform<World, Camera>& T_wc) noexcept {
 
 }  // namespace
 
+bool HasUsablePose(const DepthFrame& frame) noexcept {
+  return frame.has_T_wc && frame.T_wc.IsFinite() && HasRigidRotation(frame.T_wc);
+}
+
 Status CheckFrame(const DepthFrame& frame, int max_width_px, int max_height_px) noexcept {
   const DepthView& depth = frame.depth;
   if (depth.data == nullptr || depth.width_px <= 0 || depth.height_px <= 0)
@@ -26,14 +30,14 @@ Status CheckFrame(const DepthFrame& frame, int max_width_px, int max_height_px) 
       !(depth.unit_m > 0.0F && std::isfinite(depth.unit_m))) {
     return Status::kInvalidImageSize;
   }
-  if (!frame.camera.IsValid()) return Status::kInvalidIntrinsics;
+  if (!frame.camera.IsValid() || !frame.camera.CanImage(depth.width_px, depth.height_px))
+    return Status::kInvalidIntrinsics;
   if (frame.mask.given() &&
       (frame.mask.width_px != depth.width_px || frame.mask.height_px != depth.height_px ||
        frame.mask.stride_bytes < frame.mask.width_px)) {
     return Status::kMaskSizeMismatch;
   }
-  if (frame.has_T_wc && !(frame.T_wc.IsFinite() && HasRigidRotation(frame.T_wc)))
-    return Status::kInvalidTransform;
+  if (frame.has_T_wc && !HasUsablePose(frame)) return Status::kInvalidTransform;
   return Status::kOk;
 }
 

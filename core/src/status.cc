@@ -10,7 +10,7 @@ const char* Describe(Status status) noexcept {
     case Status::kInvalidConfig:
       return "a setting is outside its range";
     case Status::kInvalidIntrinsics:
-      return "camera intrinsics are zero, negative or not finite";
+      return "camera intrinsics are not those of a pinhole camera";
     case Status::kInvalidImageSize:
       return "image width, height or stride is not usable";
     case Status::kImageTooLarge:

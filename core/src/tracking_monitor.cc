@@ -91,7 +91,7 @@ TrackingState TrackingMonitor::AfterRegistered(const Evidence& evidence) const n
 }
 
 bool TrackingMonitor::ShouldRestart(StampNs stamp_ns) const noexcept {
-  const float lost_s = Seconds(stamp_ns - last_registered_ns_);
+  const float lost_s = Seconds(SpanNs(last_registered_ns_, stamp_ns));
   return state_ == TrackingState::kLost && lost_s > config_.reinitialise_after_s;
 }
 

@@ -36,7 +36,7 @@ Mat6 InitialAcceleration() noexcept {
 }
 
 float StepSeconds(StampNs from_ns, StampNs to_ns) noexcept {
-  return std::clamp(Seconds(to_ns - from_ns), 0.0F, kMaxStep_s);
+  return std::clamp(Seconds(SpanNs(from_ns, to_ns)), 0.0F, kMaxStep_s);
 }
 
 PoseCameraFromObject Displaced(const PoseCameraFromObject& T_co,
@@ -139,7 +139,8 @@ void TwistFilter::Update(const PoseCameraFromObject& T_co, const Mat6& pose_cova
   innovation.head<3>() = T_co.translation() - T_co_.translation();
   innovation.tail<3>() = LogSo3(Mat3(T_co.rotation() * T_co_.rotation().transpose()));
   SymmetricSolver6 solver(covariance_[0][0] + pose_covariance);
-  if (!solver.ok()) return;  // only for a measurement that is not finite; the prediction stands
+  // Only for a measurement that is not finite; the prediction stands.
+  if (!solver.ok() || !innovation.allFinite()) return;
   if (innovation.dot(solver.Solve(innovation)) > kImpulseNis) {
     AddImpulse();
     solver = SymmetricSolver6(covariance_[0][0] + pose_covariance);

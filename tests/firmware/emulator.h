@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,8 @@ struct Board {
   const char* machine;
   const char* image;
   const char* recording_address;  ///< Where its firmware looks for a recording.
+
+  friend void PrintTo(const Board& board, std::ostream* stream) { *stream << board.name; }
 };
 inline constexpr Board kM7{"Cortex-M7", "mps2-an500",
                            DISFLOW_FIRMWARE_BUILDS "/cortex-m7/bin/disflow_firmware_mps2_an500.elf",

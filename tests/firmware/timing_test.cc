@@ -60,7 +60,7 @@ void Print(const Counts& counts, const char* name) {
   }
 }
 
-class TimingTest : public ::testing::TestWithParam<const char*> {
+class TimingTest : public ::testing::TestWithParam<std::string> {
  protected:
   void SetUp() override {
     if (const std::string missing = Emulator::Missing(kM7); !missing.empty()) {
@@ -75,7 +75,7 @@ TEST_P(TimingTest, InstructionsPerFrame_AreBoundedAndTheSameInEveryRun) {
   options.icount_shift = kShift;
   const auto answers = RunRecorded(options, frames, kWhole);
   const Counts counts = InstructionsOf(answers);
-  Print(counts, GetParam());
+  Print(counts, GetParam().c_str());
   const auto slowest = std::max_element(
       counts.begin(), counts.end(),
       [](const auto& a, const auto& b) { return a[kStageCount] < b[kStageCount]; });
@@ -92,7 +92,7 @@ TEST_P(TimingTest, InstructionsPerFrame_AreBoundedAndTheSameInEveryRun) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Fast, TimingTest, ::testing::Values("box", "bottle"),
-                         [](const auto& instance) { return std::string(instance.param); });
+                         [](const auto& instance) { return instance.param; });
 
 }  // namespace
 }  // namespace disflow::firmware_test

@@ -40,6 +40,10 @@ Difference Largest(const std::vector<apps::BoardAnswer>& answers,
 struct Case {
   const char* object;
   const char* noise;
+
+  friend void PrintTo(const Case& sequence, std::ostream* stream) {
+    *stream << sequence.object << ' ' << sequence.noise;
+  }
 };
 
 class SequenceTest : public ::testing::TestWithParam<Case> {};

@@ -106,7 +106,7 @@ TEST(DistanceField, ObservationFarFromKnownSurface_IsRejectedAndCounted) {
             Vec3(0.006F * static_cast<float>(x), 0.006F * static_cast<float>(y), 0.005F));
     }
   }
-  (void)model.field->Retrain(100);
+  (void)model.field->Retrain(100, model.counters);
   const std::size_t before = model.Samples().size();
   EXPECT_EQ(model.counters.observations_rejected, 0U);
   EXPECT_EQ(model.Insert(Vec3(0.001F, 0.001F, 0.012F)), Fusion::kRejected);
@@ -166,7 +166,7 @@ TEST(DistanceField, PoolFullWithinOneFrame_RefusesInsteadOfForgetting) {
 TEST(DistanceField, UnusableObservation_ChangesNothing) {
   Model model;
   for (int i = 0; i < 4; ++i) (void)model.Insert(kPlace_m);
-  (void)model.field->Retrain(10);
+  (void)model.field->Retrain(10, model.counters);
   const Vec3 before_m = model.Samples()[0].position_m;
   std::uint32_t refused = 0;
   for (const float bad :
@@ -207,12 +207,12 @@ TEST(DistanceField, Retraining_KeepsToItsBudget) {
   const int clusters = field->store().size();
   ASSERT_GT(clusters, 20);
   EXPECT_EQ(trained(), 0);
-  EXPECT_EQ(field->Retrain(4), 4);
+  EXPECT_EQ(field->Retrain(4, counters), 4);
   EXPECT_EQ(trained(), 4);
-  EXPECT_EQ(field->Retrain(0), 0);
-  EXPECT_EQ(field->Retrain(10000), clusters - 4);
+  EXPECT_EQ(field->Retrain(0, counters), 0);
+  EXPECT_EQ(field->Retrain(10000, counters), clusters - 4);
   EXPECT_EQ(trained(), clusters);
-  EXPECT_EQ(field->Retrain(10000), 0);
+  EXPECT_EQ(field->Retrain(10000, counters), 0);
 }
 
 TEST(DistanceField, SidesOfACrease_AreKeptApart) {
@@ -232,6 +232,31 @@ TEST(DistanceField, Bounds_EncloseAllSamples) {
       EXPECT_GE((field->bounds_max_m() - sample.position_m).minCoeff(), -1e-3F);
     }
   });
+}
+
+TEST(DistanceField, MoreCandidatesThanAGpConsiders_AreCounted) {
+  FieldConfig config;
+  config.merge_radius_m = 0.001F;
+  config.overlap_m = 0.02F;
+  Model model(config);
+  // A dense plane: far more samples within reach of a cell than a GP is trained on.
+  for (int x = -20; x < 20; ++x) {
+    for (int y = -20; y < 20; ++y)
+      (void)model.Insert(
+          Vec3(0.004F * static_cast<float>(x), 0.004F * static_cast<float>(y), 0.005F));
+  }
+  EXPECT_EQ(model.counters.candidates_dropped, 0U);
+  (void)model.field->Retrain(1, model.counters);
+  EXPECT_GT(model.counters.candidates_dropped, 0U);
+
+  Model usual;
+  for (int x = -20; x < 20; ++x) {
+    for (int y = -20; y < 20; ++y)
+      (void)usual.Insert(
+          Vec3(0.004F * static_cast<float>(x), 0.004F * static_cast<float>(y), 0.005F));
+  }
+  (void)usual.field->Retrain(1000, usual.counters);
+  EXPECT_EQ(usual.counters.candidates_dropped, 0U);
 }
 
 }  // namespace

@@ -290,5 +290,92 @@ TEST(DistanceQuery, NotFinitePoint_SaysOutOfBounds) {
   }
 }
 
+/// Observations at one place whose normals all contradict each other: nothing but strays.
+std::unique_ptr<EdgeField> StraysAlone() {
+  auto field = std::make_unique<EdgeField>();
+  field->Start({});
+  Counters counters;
+  std::mt19937 random(1);
+  for (int corner = 0; corner < 27; ++corner) {
+    const Vec3 direction(static_cast<float>(corner % 3 - 1), static_cast<float>(corner / 3 % 3 - 1),
+                         static_cast<float>(corner / 9 - 1));
+    const auto on_axes = (direction.array() != 0.0F).count();
+    if (on_axes != 1 && on_axes != 3) continue;
+    const Vec3 x_m = Vec3(0.005F, 0.006F, 0.007F) + 0.001F * direction;
+    (void)field->Insert(Observe({x_m, direction.normalized()}, {}, random), 1, counters);
+  }
+  return field;
+}
+
+TEST(DistanceQuery, PointOnAStraySample_IsOnTheSurface) {
+  const auto field = StraysAlone();
+  ASSERT_EQ(field->store().size(), 14);
+  GpWorkspace<profiles::Edge::kMaxTrainingSamples> workspace;
+  DistanceQuerier<profiles::Edge> querier(*field, workspace, kSupport_m);
+  field->store().ForEach([&](Handle, const auto& cluster) {
+    for (const ModelSample& sample : cluster.samples) {
+      const auto answer = querier.Query(sample.position_m);
+      ASSERT_EQ(answer.status, Status::kOk);
+      EXPECT_EQ(answer.value.distance_m, 0.0F);
+      EXPECT_NEAR(answer.value.gradient.norm(), 1.0F, 1e-3F);
+      EXPECT_TRUE(std::isfinite(answer.value.variance_m2));
+      // And so close to it that squares of the distance vanish.
+      const auto beside = querier.Query(Vec3(sample.position_m + Vec3::Constant(1e-30F)));
+      EXPECT_TRUE(std::isfinite(beside.value.distance_m));
+      EXPECT_TRUE(beside.value.gradient.allFinite());
+    }
+  });
+}
+
+/// More local GPs around a place than are listed there: five sides in each of many cells.
+std::unique_ptr<EdgeField> Crowded() {
+  auto field = std::make_unique<EdgeField>();
+  field->Start({});
+  Counters counters;
+  std::mt19937 random(2);
+  for (int cell = 0; cell < 125; ++cell) {
+    const Vec3 corner_m =
+        0.02F * Vec3(static_cast<float>(cell % 5) - 2.5F, static_cast<float>(cell / 5 % 5) - 2.5F,
+                     static_cast<float>(cell / 25) - 2.5F);
+    for (int side = 0; side < 5; ++side) {
+      const Vec3 normal = (side % 2 == 0 ? 1.0F : -1.0F) * Vec3::Unit(side / 2);
+      for (int i = 0; i < 4; ++i) {
+        const Vec3 in_cell_m(Uniform(random, 0.001F, 0.019F), Uniform(random, 0.001F, 0.019F),
+                             Uniform(random, 0.001F, 0.019F));
+        (void)field->Insert(Observe({corner_m + in_cell_m, normal}, {}, random), 1, counters);
+      }
+    }
+  }
+  return field;
+}
+
+TEST(LocalSurfaceOfACrowd, FieldAtAPoint_DoesNotDependOnTheBoxThatWasGathered) {
+  const auto field = Crowded();
+  ASSERT_GT(field->store().size(), 500);
+  LocalSurface<profiles::Edge> around_point(*field);
+  LocalSurface<profiles::Edge> around_all(*field);
+  constexpr float kReach_m = 0.008F;
+  const Vec3 half_m = Vec3::Constant(0.05F);
+  around_all.Gather(-half_m, half_m, kReach_m);
+  EXPECT_TRUE(around_all.HasSampleNear(Vec3(half_m - Vec3::Constant(0.01F)), half_m, 0.001F))
+      << "the last of the cells that were gathered";
+  std::mt19937 random(3);
+  int found = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Vec3 x_m(Uniform(random, -0.05F, 0.05F), Uniform(random, -0.05F, 0.05F),
+                   Uniform(random, -0.05F, 0.05F));
+    around_point.Gather(x_m, x_m, kReach_m);
+    const auto a = around_point.Evaluate(x_m);
+    const auto b = around_all.Evaluate(x_m);
+    ASSERT_EQ(a.found, b.found) << x_m.transpose();
+    if (!a.found) continue;
+    ++found;
+    EXPECT_EQ(a.nearest_m, b.nearest_m);
+    EXPECT_EQ(a.distance_m, b.distance_m);
+    EXPECT_EQ(a.gradient, b.gradient);
+  }
+  EXPECT_GT(found, 100);
+}
+
 }  // namespace
 }  // namespace disflow::testing

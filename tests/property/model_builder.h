@@ -48,7 +48,7 @@ void Fuse(const Shape& shape, const Observing& observing, std::uint32_t first_fr
       const SurfaceSample sample = Observe(shape.random_point(random), observing, random);
       (void)field.Insert(sample, first_frame + static_cast<std::uint32_t>(pass), counters);
     }
-    (void)field.Retrain(std::numeric_limits<int>::max());
+    (void)field.Retrain(std::numeric_limits<int>::max(), counters);
   }
 }
 

@@ -193,7 +193,7 @@ TEST(SurfaceExtractor, RarelySeenSamples_AreLeftOutOnRequest) {
   const Vec3 stray_m = OddPlace().translation() + Vec3(0.0F, 0.09F, 0.0F);
   EXPECT_EQ(field->Insert(Observe({stray_m, Vec3::UnitX()}, {}, random), 9, counters),
             EdgeField::Fusion::kAdded);
-  (void)field->Retrain(1000);
+  (void)field->Retrain(1000, counters);
   SurfaceOptions options;
   MeshCollector with_stray;
   Extract(*field, options, with_stray);
@@ -216,7 +216,7 @@ TEST(SurfaceExtractor, StraySampleOnASurface_IsOutvotedByItsNeighbours) {
     (void)field->Insert(Observe(stray, {}, random), frame, counters);
   }
   EXPECT_EQ(counters.observations_rejected, 0U);
-  (void)field->Retrain(1000);
+  (void)field->Retrain(1000, counters);
   MeshCollector mesh;
   Extract(*field, {}, mesh);
   ExpectClosed(mesh, "sphere with a stray sample");

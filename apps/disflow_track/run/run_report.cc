@@ -13,7 +13,7 @@ struct NamedCounter {
   std::uint32_t Counters::*value;
 };
 
-constexpr std::array<NamedCounter, 13> kCounters = {{
+constexpr std::array<NamedCounter, 14> kCounters = {{
     {"pixels out of range", &Counters::pixels_out_of_range},
     {"runs dropped", &Counters::runs_dropped},
     {"blocks sparse", &Counters::blocks_sparse},
@@ -27,6 +27,7 @@ constexpr std::array<NamedCounter, 13> kCounters = {{
     {"model samples refused", &Counters::samples_refused},
     {"clusters evicted", &Counters::clusters_evicted},
     {"edges refused", &Counters::edges_refused},
+    {"GP candidates dropped", &Counters::candidates_dropped},
 }};
 
 template <class... Values>

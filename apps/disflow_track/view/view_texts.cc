@@ -27,7 +27,8 @@ Json CountersOf(const Counters& totals) {
           {"observations out of bounds", totals.observations_out_of_bounds},
           {"model samples refused", totals.samples_refused},
           {"clusters evicted", totals.clusters_evicted},
-          {"edges refused", totals.edges_refused}};
+          {"edges refused", totals.edges_refused},
+          {"GP candidates dropped", totals.candidates_dropped}};
 }
 
 Json CountersOf(const hal::SensorCounters& sensor) {

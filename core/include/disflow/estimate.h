@@ -41,11 +41,14 @@ struct Counters {
       0;                                    ///< Samples whose normal disagrees in the last step.
   std::uint32_t observations_rejected = 0;  ///< Observations not fused: too far from known surface.
   std::uint32_t observations_out_of_bounds = 0;  ///< Observations outside of the mapped volume.
-  std::uint32_t samples_refused = 0;   ///< New samples refused since their cluster is full.
+  /// New samples refused since their cluster is full, or no room could be made for one.
+  std::uint32_t samples_refused = 0;
   std::uint32_t clusters_evicted = 0;  ///< Stalest clusters removed to make room.
   std::uint32_t edges_refused = 0;     ///< Occluding-edge samples refused since the store is full.
+  /// Samples that a local GP could have been trained on, beyond those that were considered.
+  std::uint32_t candidates_dropped = 0;
 
-  static constexpr int kCount = 17;
+  static constexpr int kCount = 18;
   /// Adds `other` to this, saturating.
   void Accumulate(const Counters& other) noexcept;
 };
@@ -88,7 +91,9 @@ struct Estimate {
   Status status =
       Status::kNotInitialised;  ///< Of this frame. Not ok: pose and twist are predictions.
   TrackingState state = TrackingState::kInitialising;
-  StampNs stamp_ns = 0;  ///< Capture time, copied from the frame.
+  /// What pose and twist are for: the frame's capture time. If that does not increase
+  /// (kStampNotIncreasing), the stamp of the last frame that was taken.
+  StampNs stamp_ns = 0;
 
   PoseCameraFromObject T_co;  ///< Pose of the object in the camera frame.
   bool has_T_wo = false;

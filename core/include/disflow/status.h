@@ -14,7 +14,7 @@ enum class [[nodiscard]] Status : std::uint8_t{
 
     // Core: configuration and input frames.
     kInvalidConfig = 1,       ///< A setting is outside its range, see Validate().
-    kInvalidIntrinsics = 2,   ///< Focal length or principal point is zero, negative or not finite.
+    kInvalidIntrinsics = 2,   ///< No lens has this focal length or principal point.
     kInvalidImageSize = 3,    ///< Width, height or stride is zero, negative or inconsistent.
     kImageTooLarge = 4,       ///< The image exceeds the profile's kMaxImageWidth x kMaxImageHeight.
     kMaskSizeMismatch = 5,    ///< Mask and depth image differ in size.

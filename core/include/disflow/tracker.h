@@ -41,12 +41,15 @@ class Tracker {
 
   /// The whole pipeline on one frame: segment, sample, predict, register, filter, fuse, retrain.
   /// @param estimate Always written completely. Its pose and twist are predictions if the status is
-  /// not ok.
+  /// not ok: for the frame's capture time, or for that of the last frame taken if the frame's does
+  /// not increase. The covariances of predictions grow with the time since the pose was last
+  /// registered.
   /// @return Same as estimate.status. A refused frame changes nothing but the counters.
   Status Process(const DepthFrame& frame, Estimate& estimate, StageClock clock = {}) noexcept;
 
   /// Fuses a frame whose pose is known (turntable, robot arm) instead of estimating it. The object
-  /// frame is the caller's. Not to be mixed with Process() on the same object.
+  /// frame is the caller's. Not to be mixed with Process() on the same object. The estimate's pose
+  /// is the given one, whether or not the object was seen, unless the frame is refused.
   Status Fuse(const DepthFrame& frame, const PoseObjectFromCamera& T_oc, Estimate& estimate,
               StageClock clock = {}) noexcept;
 
@@ -85,7 +88,8 @@ class Tracker {
   [[nodiscard]] ModelAgreement AgreementWith(const DepthFrame& frame,
                                              const PoseObjectFromCamera& T_oc) const noexcept;
   [[nodiscard]] Status Observe(const DepthFrame& frame, Estimate& estimate,
-                               StageStopwatch& stopwatch) noexcept;
+                               StageStopwatch& stopwatch, bool doubtful) noexcept;
+  void StartAt(StampNs stamp_ns, const PoseObjectFromCamera& T_oc, float variance) noexcept;
   void StartObject(const DepthFrame& frame) noexcept;
   [[nodiscard]] Aligned Register(const DepthFrame& frame, Estimate& estimate) noexcept;
   [[nodiscard]] Status Conclude(const DepthFrame& frame, Status observed, const Aligned& aligned,
@@ -106,8 +110,11 @@ class Tracker {
   [[nodiscard]] bool IsForeign(const Vec3& x_o) const noexcept;
   void RememberView(const DepthFrame& frame) noexcept;
   void FuseObservations(Estimate& estimate) noexcept;
-  void Retrain() noexcept;
+  void MoveTo(StampNs stamp_ns, const PoseObjectFromCamera& T_oc) noexcept;
+  void Retrain(Estimate& estimate) noexcept;
+  Status Refuse(Status status, const DepthFrame& frame, Estimate& estimate) noexcept;
   Status Finish(Status status, const DepthFrame& frame, Estimate& estimate) noexcept;
+  void Report(const PoseCameraFromObject& T_co, Estimate& estimate) const noexcept;
 
   Config config_;
   ConfigIssue config_issue_;
@@ -121,6 +128,7 @@ class Tracker {
   PoseObjectFromCamera T_oc_previous_;  ///< Of the last registered frame.
 
   Mat6 registered_covariance_ = Mat6::Zero();  ///< Of the last registered pose.
+  Mat6 twist_unobserved_ = Mat6::Zero();       ///< What the surface did not tell of its twist then.
   StampNs observed_ns_ = 0;  ///< When the surface last told the pose in all directions.
 
   typename Segmenter<Limits>::Mask object_mask_;

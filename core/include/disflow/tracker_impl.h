@@ -26,13 +26,13 @@ Status Tracker<Limits>::Process(const DepthFrame& frame, Estimate& estimate,
   Begin(frame, estimate);
   StageStopwatch stopwatch(clock, estimate);
   Status status = Check(frame);
-  if (status != Status::kOk) return Finish(status, frame, estimate);
+  if (status != Status::kOk) return Refuse(status, frame, estimate);
 
   // Where the object should be now, if it kept its velocity.
   if (started_) T_oc_ = Predict(frame).Inverse();
 
   // Which pixels are the object, and which surface they show.
-  status = Observe(frame, estimate, stopwatch);
+  status = Observe(frame, estimate, stopwatch, started_ && monitor_.Doubts(frame.stamp_ns));
 
   // V-B to V-D: the pose that puts the observed points onto the zero level of the distance field,
   // then the twist.
@@ -50,7 +50,7 @@ Status Tracker<Limits>::Process(const DepthFrame& frame, Estimate& estimate,
     RememberView(frame);
     FuseObservations(estimate);
     stopwatch.Mark(Stage::kFuse);
-    Retrain();
+    Retrain(estimate);
     stopwatch.Mark(Stage::kRetrain);
   }
   return Finish(status, frame, estimate);
@@ -62,23 +62,20 @@ Status Tracker<Limits>::Fuse(const DepthFrame& frame, const PoseObjectFromCamera
   Begin(frame, estimate);
   StageStopwatch stopwatch(clock, estimate);
   Status status = T_oc.IsFinite() ? Check(frame) : Status::kInvalidTransform;
-  if (status != Status::kOk) return Finish(status, frame, estimate);
+  if (status != Status::kOk) return Refuse(status, frame, estimate);
   T_oc_ = T_oc;
-  status = Observe(frame, estimate, stopwatch);
+  // However long ago the last frame was: a known pose is never in doubt.
+  status = Observe(frame, estimate, stopwatch, false);
+  if (started_) {
+    MoveTo(frame.stamp_ns, T_oc);
+  } else if (status == Status::kOk) {
+    StartAt(frame.stamp_ns, T_oc, kKnownPoseVariance);
+  }
   if (status == Status::kOk) {
-    if (started_) {
-      twist_filter_.Predict(frame.stamp_ns);
-      twist_filter_.Update(T_oc_.Inverse(), kKnownPoseVariance * Mat6::Identity());
-    } else {
-      twist_filter_.Start(config_.twist, frame.stamp_ns, T_oc_.Inverse(),
-                          kKnownPoseVariance * Mat6::Identity());
-      monitor_.Start(config_.monitor, frame.stamp_ns);
-      started_ = true;
-    }
     estimate.score = 1.0F;
     FuseObservations(estimate);
     stopwatch.Mark(Stage::kFuse);
-    Retrain();
+    Retrain(estimate);
     stopwatch.Mark(Stage::kRetrain);
   }
   return Finish(status, frame, estimate);
@@ -110,7 +107,7 @@ Status Tracker<Limits>::Check(const DepthFrame& frame) const noexcept {
 
 template <class Limits>
 Status Tracker<Limits>::Observe(const DepthFrame& frame, Estimate& estimate,
-                                StageStopwatch& stopwatch) noexcept {
+                                StageStopwatch& stopwatch, bool doubtful) noexcept {
   has_stamp_ = true;
   last_stamp_ns_ = frame.stamp_ns;
   samples_.clear();
@@ -119,7 +116,6 @@ Status Tracker<Limits>::Observe(const DepthFrame& frame, Estimate& estimate,
   if (!started_ && frame.mask.label != 0 && !frame.mask.given()) return Status::kEmptyMask;
   ModelPrior prior;
   if (started_) {
-    const bool doubtful = monitor_.Doubts(frame.stamp_ns);
     // A mask is then the better guide.
     prior = {!(doubtful && frame.mask.given()), doubtful, T_oc_, field_.bounds_min_m(),
              field_.bounds_max_m()};
@@ -163,16 +159,40 @@ void Tracker<Limits>::StartObject(const DepthFrame& frame) noexcept {
   Vec3 centroid = Vec3::Zero();
   for (const SurfaceSample& sample : samples_) centroid += sample.position_m;
   centroid /= static_cast<float>(samples_.size());
-  T_oc_ = PoseObjectFromCamera(Mat3::Identity(), Vec3(-centroid));
-  T_oc_previous_ = T_oc_;
   // The first pose is exact by definition of the object frame.
-  twist_filter_.Start(config_.twist, frame.stamp_ns, T_oc_.Inverse(),
-                      kDefinedPoseVariance * Mat6::Identity());
-  registered_covariance_ = kDefinedPoseVariance * Mat6::Identity();
-  observed_ns_ = frame.stamp_ns;
-  monitor_.Start(config_.monitor, frame.stamp_ns);
+  StartAt(frame.stamp_ns, PoseObjectFromCamera(Mat3::Identity(), Vec3(-centroid)),
+          kDefinedPoseVariance);
+}
+
+template <class Limits>
+void Tracker<Limits>::StartAt(StampNs stamp_ns, const PoseObjectFromCamera& T_oc,
+                              float variance) noexcept {
+  T_oc_ = T_oc;
+  T_oc_previous_ = T_oc;
+  registered_covariance_ = variance * Mat6::Identity();
+  twist_unobserved_.setZero();
+  twist_filter_.Start(config_.twist, stamp_ns, T_oc.Inverse(), registered_covariance_);
+  observed_ns_ = stamp_ns;
+  monitor_.Start(config_.monitor, stamp_ns);
   frame_index_ = 0;
   started_ = true;
+}
+
+/// Takes a known pose for what a registration would have found.
+template <class Limits>
+void Tracker<Limits>::MoveTo(StampNs stamp_ns, const PoseObjectFromCamera& T_oc) noexcept {
+  const float known_std = std::sqrt(kKnownPoseVariance);
+  T_oc_previous_ = T_oc;
+  twist_filter_.Predict(stamp_ns);
+  twist_filter_.Update(T_oc.Inverse(), kKnownPoseVariance * Mat6::Identity());
+  registered_covariance_ = twist_filter_.pose_covariance();
+  twist_unobserved_.setZero();
+  observed_ns_ = stamp_ns;
+  monitor_.Update({.registered = true,
+                   .score = 1.0F,
+                   .position_std_m = known_std,
+                   .rotation_std_rad = known_std},
+                  stamp_ns);
 }
 
 /// Whether a point lies in space that the camera has looked through.
@@ -217,33 +237,46 @@ void Tracker<Limits>::FuseObservations(Estimate& estimate) noexcept {
 }
 
 template <class Limits>
-void Tracker<Limits>::Retrain() noexcept {
+void Tracker<Limits>::Retrain(Estimate& estimate) noexcept {
   const int factor = frame_index_ < kInitialFrames ? kInitialBudgetFactor : 1;
-  (void)field_.Retrain(factor * config_.field.retrain_budget);
+  (void)field_.Retrain(factor * config_.field.retrain_budget, estimate.rejected);
   ++frame_index_;
+}
+
+/// Of a frame that cannot be used: what is known without it. No state but the counters changes.
+template <class Limits>
+Status Tracker<Limits>::Refuse(Status status, const DepthFrame& frame,
+                               Estimate& estimate) noexcept {
+  estimate.status = status;
+  estimate.reset_counter = reset_counter_;
+  ++estimate.rejected.frames_rejected;
+  totals_.Accumulate(estimate.rejected);
+  const bool is_late = status == Status::kStampNotIncreasing;
+  if (is_late) estimate.stamp_ns = last_stamp_ns_;
+  if (!started_) return status;
+  Report(is_late ? T_oc_.Inverse() : Predict(frame), estimate);
+  Coast(estimate.stamp_ns, estimate);
+  // The camera's pose is that of the frame's own stamp.
+  if (!is_late && HasUsablePose(frame)) {
+    estimate.has_T_wo = true;
+    estimate.T_wo = frame.T_wc * estimate.T_co;
+  }
+  return status;
 }
 
 template <class Limits>
 Status Tracker<Limits>::Finish(Status status, const DepthFrame& frame,
                                Estimate& estimate) noexcept {
   estimate.status = status;
-  if (status != Status::kOk) {
-    const bool refused =
-        status == Status::kInvalidConfig || status == Status::kStampNotIncreasing ||
-        CheckFrame(frame, Limits::kMaxImageWidth, Limits::kMaxImageHeight) != Status::kOk;
-    ++(refused ? estimate.rejected.frames_rejected : estimate.rejected.frames_unregistered);
-  }
+  if (status != Status::kOk) ++estimate.rejected.frames_unregistered;
   if (started_) {
-    estimate.T_co = T_oc_.Inverse();
-    estimate.twist = twist_filter_.twist();
+    Report(T_oc_.Inverse(), estimate);
     if (estimate.pose_covariance.isZero(0.0F)) {
       estimate.pose_covariance = twist_filter_.pose_covariance();
       estimate.twist_covariance = twist_filter_.twist_covariance();
     }
-    estimate.state = monitor_.state();
-    estimate.quality = monitor_.quality();
     if (frame.has_T_wc) {
-      estimate.has_T_wo = frame.T_wc.IsFinite();
+      estimate.has_T_wo = true;
       estimate.T_wo = frame.T_wc * estimate.T_co;
     }
     if (monitor_.ShouldRestart(last_stamp_ns_)) Reset();
@@ -251,6 +284,15 @@ Status Tracker<Limits>::Finish(Status status, const DepthFrame& frame,
   estimate.reset_counter = reset_counter_;
   totals_.Accumulate(estimate.rejected);
   return status;
+}
+
+/// What the tracker knows between frames too.
+template <class Limits>
+void Tracker<Limits>::Report(const PoseCameraFromObject& T_co, Estimate& estimate) const noexcept {
+  estimate.T_co = T_co;
+  estimate.twist = twist_filter_.twist();
+  estimate.state = monitor_.state();
+  estimate.quality = monitor_.quality();
 }
 
 }  // namespace disflow

@@ -77,8 +77,9 @@ Status Tracker<Limits>::Conclude(const DepthFrame& frame, Status observed, const
     estimate.weak = FindWeakDirection(covariance.reported, config_.monitor);
     field_.SetGeneration(aligned.generation + 1.0F);
     registered_covariance_ = covariance.reported;
+    twist_unobserved_ = covariance.twist_unobserved;
     estimate.pose_covariance = covariance.reported;
-    estimate.twist_covariance = twist_filter_.twist_covariance() + covariance.twist_unobserved;
+    estimate.twist_covariance = twist_filter_.twist_covariance() + twist_unobserved_;
   } else {
     Coast(frame.stamp_ns, estimate);
   }
@@ -92,11 +93,12 @@ Status Tracker<Limits>::Conclude(const DepthFrame& frame, Status observed, const
 template <class Limits>
 PoseCameraFromObject Tracker<Limits>::Predict(const DepthFrame& frame) const noexcept {
   if (!monitor_.Doubts(frame.stamp_ns)) return twist_filter_.Extrapolate(frame.stamp_ns);
-  const float gap_s = Seconds(frame.stamp_ns - twist_filter_.stamp_ns());
-  const float moved_s = kFade_s * (1.0F - FastExpNonPositive(-gap_s / kFade_s));
+  const StampNs gap_ns = SpanNs(twist_filter_.stamp_ns(), frame.stamp_ns);
+  const float moved_s = kFade_s * (1.0F - FastExpNonPositive(-Seconds(gap_ns) / kFade_s));
   const auto moved_us = static_cast<std::int32_t>(moved_s * 1e6F);
-  PoseCameraFromObject T_co =
-      twist_filter_.Extrapolate(twist_filter_.stamp_ns() + StampNs{moved_us} * 1000);
+  // No farther than to the frame: near the end of time there is nothing beyond it.
+  const StampNs moved_ns = std::min(StampNs{moved_us} * 1000, gap_ns);
+  PoseCameraFromObject T_co = twist_filter_.Extrapolate(twist_filter_.stamp_ns() + moved_ns);
   const auto in_view = [&frame](const Vec3& x_c) {
     if (!(x_c.z() > 0.0F)) return false;
     const Vec2 px = frame.camera.Project(x_c);
@@ -115,7 +117,7 @@ bool Tracker<Limits>::IsSameObjectFrame(const DepthFrame& frame,
                                         const PoseObjectFromCamera& T_oc) const noexcept {
   constexpr float kReach_rad = 0.7F;
   constexpr float kFarthestTurn_rad = 1.6F;
-  const float gap_s = Seconds(frame.stamp_ns - twist_filter_.stamp_ns());
+  const float gap_s = Seconds(SpanNs(twist_filter_.stamp_ns(), frame.stamp_ns));
   const Vec3 off = LogSo3(Mat3(T_oc.rotation() * T_oc_.rotation().transpose()));
   return off.norm() <= kReach_rad &&
          gap_s * twist_filter_.twist().angular_rps.norm() <= kFarthestTurn_rad;
@@ -127,7 +129,7 @@ template <class Limits>
 void Tracker<Limits>::Coast(StampNs stamp_ns, Estimate& estimate) const noexcept {
   TwistFilter coasting = twist_filter_;
   coasting.Predict(stamp_ns);
-  estimate.twist_covariance = coasting.twist_covariance();
+  estimate.twist_covariance = coasting.twist_covariance() + twist_unobserved_;
   // What it was then and what has been added since.
   estimate.pose_covariance = registered_covariance_ + coasting.pose_covariance();
   estimate.weak = FindWeakDirection(estimate.pose_covariance, config_.monitor);
@@ -145,7 +147,7 @@ typename Tracker<Limits>::PoseCovariance Tracker<Limits>::CovarianceOf(
   const auto in_camera = [&](const Mat6& covariance_o) {
     return CovarianceAtPoint(covariance_o, R_co, to_origin_m);
   };
-  const float since_s = Seconds(stamp_ns - observed_ns_);
+  const float since_s = Seconds(SpanNs(observed_ns_, stamp_ns));
   const float unobserved_s = std::min(since_s, kLongest_s);
 
   PoseCovariance result;

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <limits>
 
 /// @file
 /// Fixed-size linear algebra types of the library.
@@ -26,6 +27,16 @@ using Mat6 = Mat<float, 6, 6>;
 
 /// Nanoseconds on a monotonic clock, see DepthFrame::stamp_ns.
 using StampNs = std::int64_t;
+
+/// The span from one stamp to another, at most as long as the type can tell: stamps come from
+/// outside and may be anything.
+[[nodiscard]] constexpr StampNs SpanNs(StampNs from_ns, StampNs to_ns) noexcept {
+  constexpr StampNs kMin = std::numeric_limits<StampNs>::min();
+  constexpr StampNs kMax = std::numeric_limits<StampNs>::max();
+  if (from_ns < 0 && to_ns > kMax + from_ns) return kMax;
+  if (from_ns > 0 && to_ns < kMin + from_ns) return kMin;
+  return to_ns - from_ns;
+}
 
 /// A span of time in seconds. Only with float: many controllers compute double by software.
 [[nodiscard]] constexpr float Seconds(StampNs span_ns) noexcept {

@@ -102,5 +102,21 @@ TEST(ModelGate, ObjectAtTheCamera_IsSearchedEverywhere) {
   EXPECT_EQ(box.height(), DepthScene::kHeight_px);
 }
 
+TEST(ModelGate, CornerInTheCamerasOwnPlane_IsSearchedForInTheWholeImage) {
+  ModelPrior prior;
+  prior.known = true;
+  const PinholeCamera camera = DepthScene::camera();
+  for (const float nearest_z_m : {0.0F, -0.0F, 1e-38F, 1e-30F}) {
+    // With x = 0 too the corner's pixel is 0 / 0.
+    prior.box_min_m = Vec3(0.0F, -0.05F, nearest_z_m);
+    prior.box_max_m = Vec3(0.1F, 0.05F, 0.2F);
+    const PixelBox box = ModelGate(camera, prior, 0.0F).SearchBox(0.0F, DepthScene::image());
+    EXPECT_EQ(box.u_min, 0);
+    EXPECT_EQ(box.v_min, 0);
+    EXPECT_EQ(box.u_max, DepthScene::kWidth_px);
+    EXPECT_EQ(box.v_max, DepthScene::kHeight_px);
+  }
+}
+
 }  // namespace
 }  // namespace disflow

@@ -88,13 +88,27 @@ TEST(Octree, PrunedLeaves_GiveTheirNodesBackAndAreNotVisited) {
                         [](const OctreeCell&, Handle) { ADD_FAILURE(); });
 }
 
-TEST(Octree, BoxThatIsNotFinite_VisitsNothingThatIsNotThere) {
+TEST(Octree, BoxThatIsNotFinite_VisitsOnlyLeavesThatAreThere) {
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
   Tree tree;
   tree.Start(kCell_m);
-  AddLeaf({32, 32, 32}, tree);
-  tree.ForEachLeafInBox(Vec3::Constant(kNan), Vec3::Constant(kNan),
-                        [](const OctreeCell&, Handle) { ADD_FAILURE(); });
+  for (const OctreeCell& cell : {OctreeCell{0, 0, 0}, OctreeCell{32, 32, 32}}) AddLeaf(cell, tree);
+  const auto visited = [&](float low, float high) {
+    int count = 0;
+    tree.ForEachLeafInBox(Vec3::Constant(low), Vec3::Constant(high),
+                          [&](const OctreeCell& cell, Handle leaf) {
+                            EXPECT_EQ(tree.FindLeaf(cell), leaf);
+                            ++count;
+                          });
+    return count;
+  };
+  EXPECT_EQ(visited(-kInfinity, kInfinity), 2);
+  EXPECT_EQ(visited(0.0F, kInfinity), 1);
+  EXPECT_EQ(visited(kInfinity, -kInfinity), 0);
+  // What is no number counts as the lower end.
+  EXPECT_EQ(visited(kNan, kNan), 1);
+  EXPECT_EQ(visited(kNan, kInfinity), 2);
 }
 
 /// One cell in each of the nodes that have facets of their own, far enough apart.

@@ -69,5 +69,35 @@ TEST(PinholeCamera, PrincipalPointOutsideOfTheImage_IsAllowed) {
   EXPECT_TRUE(cropped.IsValid());
 }
 
+TEST(PinholeCamera, FocalLengthThatNoLensHas_IsInvalid) {
+  for (float PinholeCamera::*field : {&PinholeCamera::fx_px, &PinholeCamera::fy_px}) {
+    for (const float bad : {1e-38F, 1e-30F, 0.5F, 1e7F, 1e38F}) {
+      PinholeCamera camera = kCamera;
+      camera.*field = bad;
+      EXPECT_FALSE(camera.IsValid()) << bad;
+    }
+    for (const float good : {1.0F, 30.0F, 1e4F}) {
+      PinholeCamera camera = kCamera;
+      camera.*field = good;
+      EXPECT_TRUE(camera.IsValid()) << good;
+    }
+  }
+}
+
+TEST(PinholeCamera, ImageThatReachesBehindTheCamera_CannotBeTaken) {
+  EXPECT_TRUE(kCamera.CanImage(640, 360));
+  // A fisheye's field of view, 174 degrees: the widest that is taken.
+  EXPECT_TRUE((PinholeCamera{16.0F, 16.0F, 320.0F, 180.0F}.CanImage(640, 360)));
+  EXPECT_FALSE((PinholeCamera{15.9F, 16.0F, 320.0F, 180.0F}.CanImage(640, 360)));
+  EXPECT_FALSE((PinholeCamera{600.0F, 8.9F, 320.0F, 180.0F}.CanImage(640, 360)));
+  PinholeCamera far_off = kCamera;
+  far_off.cx_px = -20.0F * kCamera.fx_px;
+  EXPECT_FALSE(far_off.CanImage(640, 360));
+  far_off.cx_px = 1e30F;
+  EXPECT_FALSE(far_off.CanImage(640, 360));
+  far_off.cx_px = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_FALSE(far_off.CanImage(640, 360));
+}
+
 }  // namespace
 }  // namespace disflow

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace disflow {
 namespace {
 
@@ -161,6 +163,35 @@ TEST_F(TrackingMonitorTest, LostForLong_ShouldRestart) {
   monitor_.Start(config_, stamp_ns_);
   EXPECT_FALSE(monitor_.ShouldRestart(stamp_ns_));
   EXPECT_EQ(monitor_.state(), TrackingState::kInitialising);
+}
+
+TEST_F(TrackingMonitorTest, StampsAtBothEndsOfTime_AreFarApart) {
+  constexpr StampNs kFirst_ns = std::numeric_limits<StampNs>::min();
+  constexpr StampNs kLast_ns = std::numeric_limits<StampNs>::max();
+  monitor_.Start(config_, kFirst_ns);
+  EXPECT_FALSE(monitor_.Doubts(kFirst_ns + kFrame_ns));
+  for (const StampNs stamp_ns : {StampNs{-1}, StampNs{0}, StampNs{1}, kLast_ns})
+    EXPECT_TRUE(monitor_.Doubts(stamp_ns)) << stamp_ns;
+  for (int i = 0; i < config_.lost_after_frames; ++i) monitor_.Update({}, kFirst_ns);
+  EXPECT_FALSE(monitor_.ShouldRestart(kFirst_ns));
+  EXPECT_TRUE(monitor_.ShouldRestart(kLast_ns));
+}
+
+TEST(SpanNs, IsTheDifferenceWhereItFitsAndTheFarthestElsewhere) {
+  constexpr StampNs kFirst_ns = std::numeric_limits<StampNs>::min();
+  constexpr StampNs kLast_ns = std::numeric_limits<StampNs>::max();
+  EXPECT_EQ(SpanNs(3, 10), 7);
+  EXPECT_EQ(SpanNs(10, 3), -7);
+  EXPECT_EQ(SpanNs(0, kLast_ns), kLast_ns);
+  EXPECT_EQ(SpanNs(0, kFirst_ns), kFirst_ns);
+  EXPECT_EQ(SpanNs(-1, kLast_ns - 1), kLast_ns);
+  EXPECT_EQ(SpanNs(-1, kLast_ns), kLast_ns);
+  EXPECT_EQ(SpanNs(kFirst_ns, kLast_ns), kLast_ns);
+  EXPECT_EQ(SpanNs(kFirst_ns, 0), kLast_ns);
+  EXPECT_EQ(SpanNs(1, kFirst_ns), kFirst_ns);
+  EXPECT_EQ(SpanNs(kLast_ns, kFirst_ns), kFirst_ns);
+  EXPECT_EQ(SpanNs(kFirst_ns, kFirst_ns), 0);
+  EXPECT_EQ(SpanNs(kLast_ns, kLast_ns), 0);
 }
 
 }  // namespace

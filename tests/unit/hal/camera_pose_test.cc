@@ -191,8 +191,14 @@ TEST(CameraPoseInput, StampsAtTheEndOfTime_DoNoHarm) {
     input.Receive(Message(0.0, 1, mavlink::MavFrame::kLocalFrd, stamp), 5);
     same.Receive(Message(0.0, 1, mavlink::MavFrame::kLocalFrd, stamp), 5);
   }
+  // One comes to lie at the moment of arrival, one at the end of time; the others are not newer.
+  EXPECT_EQ(history.counters().poses, 2U);
+  EXPECT_EQ(history.counters().refused, 4U);
+  // There is no motion between two poses so far apart.
   Transform<World, Camera> T_wc;
-  (void)history.At(5, T_wc);
+  for (const StampNs at : {StampNs{5}, StampNs{1'000'000}, std::numeric_limits<StampNs>::max()})
+    EXPECT_EQ(history.At(at, T_wc), Status::kNotFound) << at;
+  EXPECT_EQ(T_wc.translation(), Vec3(Vec3::Zero()));
 }
 
 }  // namespace

@@ -173,7 +173,8 @@ TEST_P(OdometryFrames, Covariances_AreInTheFramesOfTheirValues) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, OdometryFrames, ::testing::Range(1U, 13U));
+INSTANTIATE_TEST_SUITE_P(Seeds, OdometryFrames, ::testing::Range(1U, 13U),
+                         ::testing::PrintToStringParamName());
 
 }  // namespace
 }  // namespace disflow::hal::mavlink

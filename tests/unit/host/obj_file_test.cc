@@ -39,9 +39,12 @@ TEST(ObjFile, PolygonsWithNormals_AreSplitIntoTriangles) {
 }
 
 struct BadObj {
+  const char* name;
   const char* text;
   const char* reason;
 };
+
+void PrintTo(const BadObj& obj, std::ostream* stream) { *stream << obj.name; }
 
 class MalformedObj : public testing::TestWithParam<BadObj> {};
 
@@ -58,9 +61,11 @@ TEST_P(MalformedObj, IsRefusedByNameAndTheMeshIsKept) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, MalformedObj,
-    testing::Values(BadObj{"", "no triangles"}, BadObj{"hello\nworld\n", "no triangles"},
-                    BadObj{"v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 9\n", "vertex 9"},
-                    BadObj{"v 1e999 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n", "finite"}));
+    testing::Values(BadObj{"Empty", "", "no triangles"},
+                    BadObj{"NoObj", "hello\nworld\n", "no triangles"},
+                    BadObj{"UnknownVertex", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 9\n", "vertex 9"},
+                    BadObj{"TooLargeNumber", "v 1e999 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n", "finite"}),
+    [](const auto& test) { return test.param.name; });
 
 TEST(ObjFile, MissingFileOrFolder_IsNotFound) {
   const ScratchDir dir;

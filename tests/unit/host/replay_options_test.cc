@@ -35,25 +35,39 @@ TEST(ReplayOptions, EveryKey_ReachesItsField) {
   EXPECT_EQ(options.count, 20);
 }
 
-class BadReplayAddress : public testing::TestWithParam<std::pair<const char*, const char*>> {};
+struct BadAddress {
+  const char* name;
+  const char* text;
+  const char* named;  // what the message must name
+};
+
+void PrintTo(const BadAddress& address, std::ostream* stream) { *stream << address.name; }
+
+class BadReplayAddress : public testing::TestWithParam<BadAddress> {};
 
 TEST_P(BadReplayAddress, IsNamed) {
   ReplayOptions options;
-  const hal::Fault fault = Parse(GetParam().first, options);
+  const hal::Fault fault = Parse(GetParam().text, options);
   EXPECT_EQ(fault.status, Status::kInvalidUri);
-  EXPECT_NE(std::string(fault.message).find(GetParam().second), std::string::npos) << fault.message;
+  EXPECT_NE(std::string(fault.message).find(GetParam().named), std::string::npos) << fault.message;
   EXPECT_TRUE(options.dir.empty()) << "options must stay as they were";
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    All, BadReplayAddress,
-    testing::Values(std::pair{"replay:x?msk=gt", "msk"}, std::pair{"replay:x?mask=", "mask"},
-                    std::pair{"replay:x?mask=../up", "mask"}, std::pair{"replay:x?mask=..", "mask"},
-                    std::pair{"replay:x?scale=0", "scale"}, std::pair{"replay:x?scale=mm", "scale"},
-                    std::pair{"replay:x?T_wc=yes", "poses"},
-                    std::pair{"replay:x?first=-1", "first"}, std::pair{"replay:x?count=0", "count"},
-                    std::pair{"replay:x?K=1,2,3", "cy"}, std::pair{"replay:x?K=0,500,3,4", "fx"},
-                    std::pair{"replay:x?K=500,500,3,4,5", "four"}));
+INSTANTIATE_TEST_SUITE_P(All, BadReplayAddress,
+                         testing::Values(BadAddress{"UnknownOption", "replay:x?msk=gt", "msk"},
+                                         BadAddress{"EmptyMask", "replay:x?mask=", "mask"},
+                                         BadAddress{"MaskOutside", "replay:x?mask=../up", "mask"},
+                                         BadAddress{"MaskAbove", "replay:x?mask=..", "mask"},
+                                         BadAddress{"ScaleZero", "replay:x?scale=0", "scale"},
+                                         BadAddress{"ScaleNoNumber", "replay:x?scale=mm", "scale"},
+                                         BadAddress{"UnknownPoses", "replay:x?T_wc=yes", "poses"},
+                                         BadAddress{"NegativeFirst", "replay:x?first=-1", "first"},
+                                         BadAddress{"NoFrames", "replay:x?count=0", "count"},
+                                         BadAddress{"ThreeIntrinsics", "replay:x?K=1,2,3", "cy"},
+                                         BadAddress{"NoFocalLength", "replay:x?K=0,500,3,4", "fx"},
+                                         BadAddress{"FiveIntrinsics", "replay:x?K=500,500,3,4,5",
+                                                    "four"}),
+                         [](const auto& test) { return test.param.name; });
 
 }  // namespace
 }  // namespace disflow::host

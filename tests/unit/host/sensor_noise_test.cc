@@ -77,7 +77,10 @@ TEST_P(NoiseOfDepth, Kinect_DisparitiesAreMultiplesOfAnEighthPixel) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Metres, NoiseOfDepth, testing::Values(0.5, 0.7123, 1.6));
+INSTANTIATE_TEST_SUITE_P(At, NoiseOfDepth, testing::Values(0.5, 0.7123, 1.6),
+                         [](const auto& depth_m) {
+                           return std::to_string(std::lround(depth_m.param * 1e3)) + "mm";
+                         });
 
 TEST(SensorNoise, NeighboursOfWhiteNoise_AreIndependent) {
   const double depth_m = 0.7;

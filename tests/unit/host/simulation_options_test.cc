@@ -54,10 +54,13 @@ TEST(SimulationOptions, UsualCamera_IsFastYcbsScaledToTheWidth) {
 }
 
 struct BadAddress {
+  const char* name;
   const char* text;
   const char* named;    // what the message must name
   const char* allowed;  // and what it must offer
 };
+
+void PrintTo(const BadAddress& address, std::ostream* stream) { *stream << address.name; }
 
 class BadSimulationAddress : public testing::TestWithParam<BadAddress> {};
 
@@ -72,19 +75,20 @@ TEST_P(BadSimulationAddress, IsNamedWithWhatIsAllowed) {
   EXPECT_EQ(options.seed, 99U) << "options must stay as they were";
 }
 
-INSTANTIATE_TEST_SUITE_P(All, BadSimulationAddress,
-                         testing::Values(BadAddress{"sim:teapot", "teapot", "bottle"},
-                                         BadAddress{"sim:obj:", "obj:", "obj:FILE"},
-                                         BadAddress{"sim:box?motion=slow", "motion=slow",
-                                                    "rotate360"},
-                                         BadAddress{"sim:box?speed=1", "speed", "motion"},
-                                         BadAddress{"sim:box?seed=-1", "seed=-1", "0 to"},
-                                         BadAddress{"sim:box?frames=0", "frames=0", "1 to"},
-                                         BadAddress{"sim:box?frames=10x", "frames=10x", "1 to"},
-                                         BadAddress{"sim:box?drop=nan", "drop=nan", "0 to 0.9"},
-                                         BadAddress{"sim:box?drop=1", "drop=1", "0 to 0.9"},
-                                         BadAddress{"sim:box?width=99999999999", "width", "4096"},
-                                         BadAddress{"sim:box?format=jpeg", "format=jpeg", "z16"}));
+INSTANTIATE_TEST_SUITE_P(
+    All, BadSimulationAddress,
+    testing::Values(BadAddress{"UnknownObject", "sim:teapot", "teapot", "bottle"},
+                    BadAddress{"NoFile", "sim:obj:", "obj:", "obj:FILE"},
+                    BadAddress{"UnknownMotion", "sim:box?motion=slow", "motion=slow", "rotate360"},
+                    BadAddress{"UnknownOption", "sim:box?speed=1", "speed", "motion"},
+                    BadAddress{"NegativeSeed", "sim:box?seed=-1", "seed=-1", "0 to"},
+                    BadAddress{"NoFrames", "sim:box?frames=0", "frames=0", "1 to"},
+                    BadAddress{"FramesNoNumber", "sim:box?frames=10x", "frames=10x", "1 to"},
+                    BadAddress{"DropNoNumber", "sim:box?drop=nan", "drop=nan", "0 to 0.9"},
+                    BadAddress{"AllDropped", "sim:box?drop=1", "drop=1", "0 to 0.9"},
+                    BadAddress{"TooWide", "sim:box?width=99999999999", "width", "4096"},
+                    BadAddress{"UnknownFormat", "sim:box?format=jpeg", "format=jpeg", "z16"}),
+    [](const auto& test) { return test.param.name; });
 
 }  // namespace
 }  // namespace disflow::host

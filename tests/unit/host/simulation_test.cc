@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cstring>
+#include <string>
+#include <tuple>
 #include <vector>
 
 #include "box_ray.h"
@@ -102,14 +104,23 @@ TEST(Simulation, OtherSeed_GivesAnotherSequence) {
   EXPECT_GT((Make(options).TruthAt(30).object.pose.translation() - here).norm(), 1e-3);
 }
 
-class ObjectInView : public testing::TestWithParam<std::tuple<ObjectKind, MotionKind, CameraKind>> {
+/// A parameter that says what it is.
+template <class Kind>
+struct Named {
+  const char* name;
+  Kind kind;
+
+  friend void PrintTo(const Named& named, std::ostream* stream) { *stream << named.name; }
 };
+
+class ObjectInView : public testing::TestWithParam<
+                         std::tuple<Named<ObjectKind>, Named<MotionKind>, Named<CameraKind>>> {};
 
 TEST_P(ObjectInView, WholeObject_StaysInsideOfTheImage) {
   const auto [object, motion, camera] = GetParam();
-  SimulationOptions options = Small(motion);
-  options.object = object;
-  options.camera = camera;
+  SimulationOptions options = Small(motion.kind);
+  options.object = object.kind;
+  options.camera = camera.kind;
   options.frames = 300;
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
     options.seed = seed;
@@ -128,12 +139,19 @@ TEST_P(ObjectInView, WholeObject_StaysInsideOfTheImage) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ObjectInView,
-                         testing::Combine(testing::Values(ObjectKind::kBox, ObjectKind::kCan),
-                                          testing::Values(MotionKind::kFast, MotionKind::kRotate360,
-                                                          MotionKind::kFlying),
-                                          testing::Values(CameraKind::kStatic,
-                                                          CameraKind::kMoving)));
+INSTANTIATE_TEST_SUITE_P(
+    All, ObjectInView,
+    testing::Combine(testing::Values(Named<ObjectKind>{"Box", ObjectKind::kBox},
+                                     Named<ObjectKind>{"Can", ObjectKind::kCan}),
+                     testing::Values(Named<MotionKind>{"Fast", MotionKind::kFast},
+                                     Named<MotionKind>{"Rotate360", MotionKind::kRotate360},
+                                     Named<MotionKind>{"Flying", MotionKind::kFlying}),
+                     testing::Values(Named<CameraKind>{"StaticCamera", CameraKind::kStatic},
+                                     Named<CameraKind>{"MovingCamera", CameraKind::kMoving})),
+    [](const auto& test) {
+      const auto& [object, motion, camera] = test.param;
+      return std::string(object.name) + motion.name + camera.name;
+    });
 
 TEST(MovingCamera, Twist_IsTheDerivativeOfTheRelativePose) {
   SimulationOptions options = Small();

@@ -24,11 +24,18 @@ TEST(ParseUri, WithoutQuery_HasNone) {
   EXPECT_TRUE(uri.query.empty());
 }
 
-class MalformedUri : public testing::TestWithParam<const char*> {};
+struct BadUri {
+  const char* name;
+  const char* text;
+};
+
+void PrintTo(const BadUri& uri, std::ostream* stream) { *stream << uri.name; }
+
+class MalformedUri : public testing::TestWithParam<BadUri> {};
 
 TEST_P(MalformedUri, IsRefusedAndNothingIsChanged) {
   Uri uri{.scheme = "kept", .path = "kept", .query = {}};
-  const hal::Fault fault = ParseUri(GetParam(), uri);
+  const hal::Fault fault = ParseUri(GetParam().text, uri);
   EXPECT_EQ(fault.status, Status::kInvalidUri);
   EXPECT_STRNE(fault.message, "");
   EXPECT_EQ(uri.scheme, "kept");
@@ -36,9 +43,16 @@ TEST_P(MalformedUri, IsRefusedAndNothingIsChanged) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, MalformedUri,
-                         testing::Values("", ":", "sim", "sim:", ":box", "sim:?a=b", "?a:b",
-                                         "sim:box?motion", "sim:box?=fast", "sim:box?a=1&a=2",
-                                         "sim:box?a=1&&b=2"));
+                         testing::Values(BadUri{"Empty", ""}, BadUri{"ColonAlone", ":"},
+                                         BadUri{"NoColon", "sim"}, BadUri{"NoPath", "sim:"},
+                                         BadUri{"NoScheme", ":box"},
+                                         BadUri{"QueryInPlaceOfPath", "sim:?a=b"},
+                                         BadUri{"QueryFirst", "?a:b"},
+                                         BadUri{"OptionWithoutValue", "sim:box?motion"},
+                                         BadUri{"ValueWithoutOption", "sim:box?=fast"},
+                                         BadUri{"OptionTwice", "sim:box?a=1&a=2"},
+                                         BadUri{"EmptyOption", "sim:box?a=1&&b=2"}),
+                         [](const auto& test) { return test.param.name; });
 
 }  // namespace
 }  // namespace disflow::host

@@ -30,10 +30,14 @@ TEST(MonotonicClock, Sleep_EndsAtTheDeadlineOrLater) {
 
 TEST(MonotonicClock, DeadlineInThePast_ReturnsAtOnce) {
   MonotonicClock clock;
-  // Would hang if it were taken as a duration or as far in the future.
-  clock.SleepUntilNs(clock.NowNs() - 1000 * kNsPerMs);
+  // Each would take a second or more if it were taken as a duration. A busy machine takes longer
+  // for all of them than for one, but not half a second for each.
+  constexpr int kSleeps = 40;
+  const std::int64_t start_ns = clock.NowNs();
+  for (int i = 0; i < kSleeps; ++i) clock.SleepUntilNs(clock.NowNs() - 1000 * kNsPerMs);
   clock.SleepUntilNs(0);
   clock.SleepUntilNs(-1);
+  EXPECT_LT(clock.NowNs() - start_ns, kSleeps * 500 * kNsPerMs);
 }
 
 TEST(MonotonicClock, Signals_DoNotShortenASleep) {

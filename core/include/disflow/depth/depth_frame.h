@@ -65,6 +65,9 @@ struct DepthFrame {
   Transform<World, Camera> T_wc;  ///< Optional camera pose in the world, valid if has_T_wc.
 };
 
+/// Whether the frame says where its camera is, by a rigid-body motion.
+[[nodiscard]] bool HasUsablePose(const DepthFrame& frame) noexcept;
+
 /// Checks sizes, strides, intrinsics and T_wc. Pixels are judged later, one by one.
 [[nodiscard]] Status CheckFrame(const DepthFrame& frame, int max_width_px,
                                 int max_height_px) noexcept;

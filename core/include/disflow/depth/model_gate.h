@@ -55,6 +55,9 @@ class ModelGate {
   /// The part of the image where accepted pixels can be.
   [[nodiscard]] PixelBox SearchBox(float min_range_m, const PixelBox& image) const noexcept {
     const PoseCameraFromObject T_co = prior_.T_oc.Inverse();
+    // Nearer than any camera sees; pixels of points at depth 0 are not numbers.
+    constexpr float kNearest_m = 1e-3F;
+    const float nearest_m = std::max(min_range_m, kNearest_m);
     Vec2 low(1e9F, 1e9F);
     Vec2 high(-1e9F, -1e9F);
     for (int corner = 0; corner < 8; ++corner) {
@@ -62,7 +65,7 @@ class ModelGate {
                       corner & 4 ? 1.0F : -1.0F);
       const Vec3 x_c = T_co * Vec3(0.5F * (prior_.box_max_m + prior_.box_min_m) +
                                    Vec3(sign.array() * half_m_.array()));
-      if (!(x_c.z() >= min_range_m)) return image;
+      if (!(x_c.z() >= nearest_m)) return image;
       const Vec2 px = camera_.Project(x_c);
       low = low.cwiseMin(px);
       high = high.cwiseMax(px);

@@ -10,8 +10,8 @@
 
 namespace disflow {
 
-/// The bounded pools of octree nodes and local GPs, and who lies where. When a pool is full the
-/// cluster that was not observed for the longest time makes room.
+/// The bounded pools of octree nodes and local GPs, and who lies where. When a pool is full those
+/// clusters make room that were not observed for the longest time.
 template <class Limits>
 class ClusterStore {
  public:
@@ -78,14 +78,14 @@ class ClusterStore {
       const Handle existing = SelectSide(leaf, normal);
       if (existing != kNoHandle) return existing;
     }
-    if (free_head_ == kNoHandle && !EvictStalest(frame, counters)) return kNoHandle;
-    leaf = tree_.FindOrCreateLeaf(cell);
-    if (leaf == kNoHandle && EvictStalest(frame, counters)) leaf = tree_.FindOrCreateLeaf(cell);
-    if (leaf == kNoHandle) {
-      ++counters.samples_refused;
-      return kNoHandle;
+    if (free_head_ != kNoHandle || EvictStalest(frame, counters)) {
+      leaf = tree_.FindOrCreateLeaf(cell);
+      while (leaf == kNoHandle && EvictStalestLeaf(frame, counters))
+        leaf = tree_.FindOrCreateLeaf(cell);
+      if (leaf != kNoHandle) return Take(cell, leaf);
     }
-    return Take(cell, leaf);
+    ++counters.samples_refused;
+    return kNoHandle;
   }
 
   /// Accounts for a sample that was added to a cluster.
@@ -133,13 +133,39 @@ class ClusterStore {
       if (stalest == kNoHandle || cluster.last_frame < clusters_[stalest].last_frame)
         stalest = handle;
     });
-    if (stalest == kNoHandle) {
-      ++counters.samples_refused;
-      return false;
-    }
+    if (stalest == kNoHandle) return false;
     ++counters.clusters_evicted;
     Release(stalest);
     return true;
+  }
+
+  /// Frees the clusters of the leaf that was not observed for the longest time, and with them its
+  /// node: a cluster that shares its leaf with others would be lost for nothing.
+  [[nodiscard]] bool EvictStalestLeaf(std::uint32_t frame, Counters& counters) noexcept {
+    Handle stalest = kNoHandle;
+    std::uint32_t stalest_frame = frame;
+    ForEach([&](Handle handle, const ClusterType& cluster) {
+      if (tree_.head(cluster.leaf) != handle) return;
+      const std::uint32_t observed = LastFrameOf(cluster.leaf);
+      if (observed >= stalest_frame) return;
+      stalest_frame = observed;
+      stalest = handle;
+    });
+    while (stalest != kNoHandle) {
+      const Handle next = clusters_[stalest].next;
+      ++counters.clusters_evicted;
+      Release(stalest);
+      stalest = next;
+    }
+    return stalest_frame < frame;
+  }
+
+  /// When any cluster of a leaf was last observed.
+  [[nodiscard]] std::uint32_t LastFrameOf(Handle leaf) const noexcept {
+    std::uint32_t last_frame = 0;
+    for (Handle h = tree_.head(leaf); h != kNoHandle; h = clusters_[h].next)
+      last_frame = std::max(last_frame, clusters_[h].last_frame);
+    return last_frame;
   }
 
   void Release(Handle handle) noexcept {

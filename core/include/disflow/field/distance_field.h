@@ -146,7 +146,7 @@ class DistanceField {
   }
 
   /// Trains up to `budget` local GPs, those that changed most first. @return How many were trained.
-  int Retrain(int budget) noexcept;
+  int Retrain(int budget, Counters& counters) noexcept;
 
   /// Distance and gradient as one cluster knows them.
   [[nodiscard]] float EvaluateCluster(const ClusterType& cluster, const Vec3& x_m,
@@ -288,11 +288,14 @@ class DistanceField {
     has_bounds_ = true;
   }
 
-  using Candidates = FixedVector<GpTrainingSample, 96>;
-  void GatherCandidates(const ClusterType& cluster, bool mature_only,
-                        Candidates& candidates) const noexcept;
+  /// A cell's surface and that around it, sampled every merge_radius_m, has about 64.
+  static constexpr int kMaxCandidates = 96;
+  static_assert(kMaxCandidates >= Limits::kMaxSamplesPerCluster);
+  using Candidates = FixedVector<GpTrainingSample, kMaxCandidates>;
+  void GatherCandidates(const ClusterType& cluster, bool mature_only, Candidates& candidates,
+                        Counters& counters) const noexcept;
   [[nodiscard]] static int SpreadSelection(Candidates& candidates, const Vec3& center_m) noexcept;
-  void TrainCluster(ClusterType& cluster) noexcept;
+  void TrainCluster(ClusterType& cluster, Counters& counters) noexcept;
 
   Store store_;
   GpWorkspace<Limits::kMaxTrainingSamples> workspace_;

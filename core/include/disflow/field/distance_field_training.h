@@ -12,7 +12,7 @@
 namespace disflow {
 
 template <class Limits>
-int DistanceField<Limits>::Retrain(int budget) noexcept {
+int DistanceField<Limits>::Retrain(int budget, Counters& counters) noexcept {
   // The `budget` dirtiest clusters by partial selection: a small sorted list, replaced from its
   // end.
   struct Entry {
@@ -36,7 +36,7 @@ int DistanceField<Limits>::Retrain(int budget) noexcept {
       }
     });
     if (batch.empty()) break;
-    for (const Entry& entry : batch) TrainCluster(store_[entry.handle]);
+    for (const Entry& entry : batch) TrainCluster(store_[entry.handle], counters);
     trained += batch.size();
   }
   return trained;
@@ -44,7 +44,8 @@ int DistanceField<Limits>::Retrain(int budget) noexcept {
 
 template <class Limits>
 void DistanceField<Limits>::GatherCandidates(const ClusterType& cluster, bool mature_only,
-                                             Candidates& candidates) const noexcept {
+                                             Candidates& candidates,
+                                             Counters& counters) const noexcept {
   const Vec3 reach = Vec3::Constant(config_.overlap_m);
   const Vec3 low = store_.tree().CellMin(cluster.cell) - reach;
   const Vec3 high = low + Vec3::Constant(config_.cell_size_m) + 2.0F * reach;
@@ -60,9 +61,10 @@ void DistanceField<Limits>::GatherCandidates(const ClusterType& cluster, bool ma
                      (high - sample.position_m).minCoeff() < 0.0F))
           continue;
         if (!own && sample.normal.dot(cluster.mean_normal) < 0.5F) continue;
-        (void)candidates.push_back({sample.position_m, sample.normal,
-                                    sample.variance_m2 + value_noise,
-                                    sample.normal_variance + normal_noise});
+        if (!candidates.push_back({sample.position_m, sample.normal,
+                                   sample.variance_m2 + value_noise,
+                                   sample.normal_variance + normal_noise}))
+          ++counters.candidates_dropped;
       }
     }
   });
@@ -100,16 +102,16 @@ int DistanceField<Limits>::SpreadSelection(Candidates& candidates, const Vec3& c
 }
 
 template <class Limits>
-void DistanceField<Limits>::TrainCluster(ClusterType& cluster) noexcept {
+void DistanceField<Limits>::TrainCluster(ClusterType& cluster, Counters& counters) noexcept {
   constexpr int kFewest = 6;
   cluster.dirtiness = 0.0F;
   cluster.UpdateMeans();
   Candidates candidates;
-  GatherCandidates(cluster, true, candidates);
+  GatherCandidates(cluster, true, candidates, counters);
   // A new side has no sample that was seen often; better trained on young samples than not at all.
   if (candidates.size() < kFewest) {
     candidates.clear();
-    GatherCandidates(cluster, false, candidates);
+    GatherCandidates(cluster, false, candidates, counters);
   }
   const int count = SpreadSelection(candidates, cluster.centroid_m);
   const std::span<const GpTrainingSample> samples(candidates.begin(),

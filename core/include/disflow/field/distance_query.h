@@ -97,7 +97,9 @@ class DistanceQuerier {
     // No surface lies between x and its nearest sample: x is on the same side as a point just off
     // that sample.
     const Vec3 beside_m =
-        nearest.position_m + (x_m - nearest.position_m) * (spacing_m_ / nearest_m);
+        nearest_m > 0.0F
+            ? Vec3(nearest.position_m + (x_m - nearest.position_m) * (spacing_m_ / nearest_m))
+            : Vec3(nearest.position_m + nearest.normal * spacing_m_);
     surface_.Gather(beside_m, beside_m, 2.0F * spacing_m_);
     const typename Surface::Value local = surface_.Evaluate(beside_m);
     const DistanceQuery beside{local.distance_m, local.gradient,

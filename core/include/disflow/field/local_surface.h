@@ -42,27 +42,27 @@ class LocalSurface {
   /// reach_m away.
   void Gather(const Vec3& low_m, const Vec3& high_m, float reach_m) noexcept {
     near_.clear();
+    all_listed_ = true;
     reach_squared_m2_ = Square(reach_m);
     const Vec3 margin = Vec3::Constant(std::sqrt(reach_squared_m2_ + JoinReach()));
-    const auto& store = field_.store();
-    store.tree().ForEachLeafInBox(
-        low_m - margin, high_m + margin, [&](const OctreeCell&, Handle leaf) {
-          for (Handle h = store.tree().head(leaf); h != kNoHandle; h = store[h].next) {
-            if (!IsStray(store[h])) (void)near_.push_back({h, kNoSample, 0.0F});
-          }
-        });
+    low_m_ = low_m - margin;
+    high_m_ = high_m + margin;
+    ForEachSteady([this](Handle handle) {
+      if (all_listed_) all_listed_ = near_.push_back({handle, kNoSample, 0.0F});
+    });
   }
 
   /// Whether a gathered sample lies at most radius_m away from a box.
-  [[nodiscard]] bool HasSampleNear(const Vec3& low_m, const Vec3& high_m,
-                                   float radius_m) const noexcept {
-    for (const Near& near : near_) {
+  [[nodiscard]] bool HasSampleNear(const Vec3& low_m, const Vec3& high_m, float radius_m) noexcept {
+    bool has = false;
+    ForEachGathered([&](const Near& near) {
+      if (has) return;
       for (const ModelSample& sample : field_.store()[near.handle].samples) {
         const Vec3 inside = sample.position_m.cwiseMax(low_m).cwiseMin(high_m);
-        if ((sample.position_m - inside).squaredNorm() <= Square(radius_m)) return true;
+        has = has || (sample.position_m - inside).squaredNorm() <= Square(radius_m);
       }
-    }
-    return false;
+    });
+    return has;
   }
 
   /// The field at a point of the gathered box. Depends on the point alone, not on the box that was
@@ -72,12 +72,14 @@ class LocalSurface {
     FindNearestSamples(x_m, value);
     if (!value.found) return value;
     Voices voices;
-    SelectVoices(Square(value.nearest_m), voices);
+    SelectVoices(x_m, Square(value.nearest_m), voices);
     Combine(x_m, voices, value);
     return value;
   }
 
  private:
+  /// So many are listed. Where more are near, all of them are looked up for every point: slow, but
+  /// none is left out.
   static constexpr int kMaxNear = 192;
   static constexpr int kMaxVoices = 12;
   static constexpr int kMaxSides = 4;
@@ -124,37 +126,67 @@ class LocalSurface {
     return agreeing * kOutvotedBy < others;
   }
 
-  void FindNearestSamples(const Vec3& x_m, Value& value) noexcept {
+  /// visit(handle) for the clusters within the gathered box but the strays.
+  template <class Visitor>
+  void ForEachSteady(Visitor&& visit) const noexcept {
     const auto& store = field_.store();
-    float best = reach_squared_m2_;
-    for (Near& near : near_) {
-      near.sample = kNoSample;
-      near.squared_m2 = best + JoinReach();
-      const ClusterType& cluster = store[near.handle];
-      if (store.tree().DistanceSquaredToCell(x_m, cluster.cell) > near.squared_m2) continue;
-      const auto squared_m2 = cluster.samples.SquaredDistances(x_m);
-      for (int i = 0; i < cluster.samples.size(); ++i) {
-        const float squared = squared_m2[static_cast<std::size_t>(i)];
-        if (squared >= near.squared_m2 || cluster.samples.observations(i) < min_observations_)
-          continue;
-        near.squared_m2 = squared;
-        near.sample = i;
+    store.tree().ForEachLeafInBox(low_m_, high_m_, [&](const OctreeCell&, Handle leaf) {
+      for (Handle h = store.tree().head(leaf); h != kNoHandle; h = store[h].next) {
+        if (!IsStray(store[h])) visit(h);
       }
-      if (near.sample == kNoSample || near.squared_m2 >= best) continue;
+    });
+  }
+
+  /// visit(near) for the same clusters, from the list if all are on it.
+  template <class Visitor>
+  void ForEachGathered(Visitor&& visit) noexcept {
+    if (all_listed_) {
+      for (Near& near : near_) visit(near);
+    } else {
+      ForEachSteady([&](Handle handle) {
+        Near near{handle, kNoSample, 0.0F};
+        visit(near);
+      });
+    }
+  }
+
+  /// Looks for the cluster's sample nearest to x, within the square root of the bound.
+  void FindNearestOf(const Vec3& x_m, float bound_squared_m2, Near& near) const noexcept {
+    const auto& store = field_.store();
+    near.sample = kNoSample;
+    near.squared_m2 = bound_squared_m2;
+    const ClusterType& cluster = store[near.handle];
+    if (store.tree().DistanceSquaredToCell(x_m, cluster.cell) > near.squared_m2) return;
+    const auto squared_m2 = cluster.samples.SquaredDistances(x_m);
+    for (int i = 0; i < cluster.samples.size(); ++i) {
+      const float squared = squared_m2[static_cast<std::size_t>(i)];
+      if (squared >= near.squared_m2 || cluster.samples.observations(i) < min_observations_)
+        continue;
+      near.squared_m2 = squared;
+      near.sample = i;
+    }
+  }
+
+  void FindNearestSamples(const Vec3& x_m, Value& value) noexcept {
+    float best = reach_squared_m2_;
+    ForEachGathered([&](Near& near) {
+      FindNearestOf(x_m, best + JoinReach(), near);
+      if (near.sample == kNoSample || near.squared_m2 >= best) return;
       best = near.squared_m2;
       value.found = true;
       value.cluster = near.handle;
       value.nearest = near.sample;
-    }
+    });
     value.nearest_m = std::sqrt(best);
   }
 
   /// The clusters that have a say, nearest first.
-  void SelectVoices(float best_squared, Voices& voices) const noexcept {
-    for (const Near& near : near_) {
-      if (near.sample == kNoSample || near.squared_m2 >= best_squared + JoinReach()) continue;
+  void SelectVoices(const Vec3& x_m, float best_squared, Voices& voices) noexcept {
+    ForEachGathered([&](Near& near) {
+      if (!all_listed_) FindNearestOf(x_m, best_squared + JoinReach(), near);
+      if (near.sample == kNoSample || near.squared_m2 >= best_squared + JoinReach()) return;
       if (voices.full()) {
-        if (near.squared_m2 >= voices.back().squared_m2) continue;
+        if (near.squared_m2 >= voices.back().squared_m2) return;
         voices.truncate(kMaxVoices - 1);
       }
       (void)voices.push_back(near);
@@ -162,7 +194,7 @@ class LocalSurface {
            --i) {
         std::swap(voices[i], voices[i - 1]);
       }
-    }
+    });
   }
 
   void Combine(const Vec3& x_m, const Voices& voices, Value& value) const noexcept {
@@ -228,6 +260,9 @@ class LocalSurface {
   int min_observations_;
   float blend_squared_m2_;
   float reach_squared_m2_ = 0.0F;
+  Vec3 low_m_ = Vec3::Zero();  ///< The gathered box and its margin.
+  Vec3 high_m_ = Vec3::Zero();
+  bool all_listed_ = true;
   FixedVector<Near, kMaxNear> near_;
 };
 

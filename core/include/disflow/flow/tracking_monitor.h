@@ -32,7 +32,7 @@ class TrackingMonitor {
   /// Whether the prediction for a frame is doubtful: the last frames could not be registered, or
   /// none came for a long time.
   [[nodiscard]] bool Doubts(StampNs stamp_ns) const noexcept {
-    return missed_ > 0 || stamp_ns - last_registered_ns_ > kLongGap_ns;
+    return missed_ > 0 || SpanNs(last_registered_ns_, stamp_ns) > kLongGap_ns;
   }
   /// Frames in a row, up to now, that could not be registered.
   [[nodiscard]] int missed() const noexcept { return missed_; }

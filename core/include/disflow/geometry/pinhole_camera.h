@@ -14,9 +14,16 @@ struct PinholeCamera {
   float cx_px = 0.0F;
   float cy_px = 0.0F;
 
+  /// Of a lens that exists: at the optical axis a pixel spans more than a microradian and less than
+  /// an eighth of a turn.
   [[nodiscard]] bool IsValid() const noexcept {
-    return std::isfinite(fx_px) && std::isfinite(fy_px) && std::isfinite(cx_px) &&
-           std::isfinite(cy_px) && fx_px > 0.0F && fy_px > 0.0F;
+    return IsFocalLength(fx_px) && IsFocalLength(fy_px) && std::isfinite(cx_px) &&
+           std::isfinite(cy_px);
+  }
+  /// Whether all pixels of an image look into the half-space in front of the camera, within 87
+  /// degrees of the optical axis. What is farther off no plane can image.
+  [[nodiscard]] bool CanImage(int width_px, int height_px) const noexcept {
+    return IsInFront(cx_px, width_px, fx_px) && IsInFront(cy_px, height_px, fy_px);
   }
   /// Direction with unit z through a pixel, camera frame.
   [[nodiscard]] Vec3 Ray(float u_px, float v_px) const noexcept {
@@ -29,6 +36,20 @@ struct PinholeCamera {
   [[nodiscard]] Vec2 Project(const Vec3& x_c) const noexcept {
     const float inverse_z = 1.0F / x_c.z();
     return {fx_px * x_c.x() * inverse_z + cx_px, fy_px * x_c.y() * inverse_z + cy_px};
+  }
+
+ private:
+  // Both written so that NaN is not.
+  [[nodiscard]] static bool IsFocalLength(float f_px) noexcept {
+    constexpr float kShortest_px = 1.0F;
+    constexpr float kLongest_px = 1e6F;
+    return f_px >= kShortest_px && f_px <= kLongest_px;
+  }
+  [[nodiscard]] static bool IsInFront(float center_px, int size_px, float f_px) noexcept {
+    constexpr float kSteepest = 20.0F;  // tan 87 degrees
+    const auto last_px = static_cast<float>(size_px - 1);
+    return std::abs(center_px) <= kSteepest * f_px &&
+           std::abs(last_px - center_px) <= kSteepest * f_px;
   }
 };
 

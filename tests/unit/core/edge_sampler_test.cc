@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "disflow/depth/edge_sampler.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "disflow/depth/pixel_mask.h"
+#include "disflow/limits.h"
+
+namespace disflow::testing {
+namespace {
+
+constexpr int kWidth_px = 240;
+constexpr int kHeight_px = 180;
+const PinholeCamera kCamera{220.0F, 220.0F, 119.5F, 89.5F};
+constexpr float kWall_m = 1.5F;
+
+/// A flat rectangle somewhere in front of the camera: its outline is known exactly.
+struct Plate {
+  Vec3 center_m;
+  Mat3 rotation;  ///< Columns: along its sides, and its normal.
+  Vec2 half_m;
+
+  /// @return Depth along a ray with z = 1; 0 if it passes by.
+  [[nodiscard]] float DepthAlong(const Vec3& ray) const {
+    const Vec3 normal = rotation.col(2);
+    const float depth_m = normal.dot(center_m) / normal.dot(ray);
+    const Vec2 place_m = PlaceOf(Vec3(depth_m * ray));
+    return (place_m.cwiseAbs().array() <= half_m.array()).all() ? depth_m : 0.0F;
+  }
+  [[nodiscard]] Vec2 PlaceOf(const Vec3& x_c) const {
+    return (rotation.transpose() * (x_c - center_m)).head<2>();
+  }
+  /// How far a point of the plane is from the outline; inside negative.
+  [[nodiscard]] float BeyondOutline(const Vec3& x_c) const {
+    const Vec2 beyond = PlaceOf(x_c).cwiseAbs() - half_m;
+    return beyond.maxCoeff() > 0.0F ? beyond.cwiseMax(0.0F).norm() : beyond.maxCoeff();
+  }
+};
+
+Plate TurnedPlate(const Vec3& turn_rad) {
+  return {Vec3(0.01F, -0.005F, 0.6F), ExpSo3(turn_rad), Vec2(0.11F, 0.08F)};
+}
+
+/// A plate that stands before a wall, as a depth image, and the edges found in it.
+class Scene {
+ public:
+  using Sampler = SurfaceSampler<profiles::Micro>;
+  using Edges = EdgeSampler<profiles::Micro>::Edges;
+
+  explicit Scene(const Plate& plate, float wall_m = kWall_m)
+      : plate_(plate), depth_m_(static_cast<std::size_t>(kWidth_px * kHeight_px), wall_m) {
+    mask_->Start(kWidth_px, kHeight_px);
+    for (int v = 0; v < kHeight_px; ++v) {
+      for (int u = 0; u < kWidth_px; ++u) {
+        const float depth_m = plate_.DepthAlong(Ray(u, v));
+        if (depth_m > 0.0F) At(u, v) = depth_m;
+      }
+    }
+  }
+  /// Something else in the columns [u_begin, u_end).
+  void Put(int u_begin, int u_end, float depth_m) {
+    for (int v = 0; v < kHeight_px; ++v) {
+      for (int u = u_begin; u < u_end; ++u) At(u, v) = depth_m;
+    }
+  }
+  const Edges& Find() {
+    for (int v = 0; v < kHeight_px; ++v) {
+      for (int u = 0; u < kWidth_px; ++u) {
+        const float depth_m = plate_.DepthAlong(Ray(u, v));
+        if (depth_m > 0.0F && At(u, v) == depth_m) mask_->row(v).SetRun(u, u + 1);
+      }
+    }
+    mask_->Finish();
+    const DepthView view{depth_m_.data(),       kWidth_px, kHeight_px, 4 * kWidth_px,
+                         DepthFormat::kFloat32, 1.0F};
+    const DepthReader depth(view, 0.1F, 10.0F);
+    const ErodedMask interior(*mask_, config_.border_px);
+    Counters counters;
+    sampler_->Sample(depth, kCamera, interior, config_, *samples_, counters);
+    EdgeSampler<profiles::Micro>::Sample(depth, kCamera, *mask_, *sampler_, config_, edges_);
+    return edges_;
+  }
+  /// All edges are where the outline is.
+  void ExpectOnOutline() const {
+    for (const EdgePoint& edge : edges_) {
+      EXPECT_NEAR(plate_.rotation.col(2).dot(edge.position_m - plate_.center_m), 0.0F, 2e-4F);
+      EXPECT_LT(std::abs(plate_.BeyondOutline(edge.position_m)), 0.5F * edge.pixel_m);
+      EXPECT_NEAR(edge.direction.norm(), 1.0F, 1e-4F);
+      EXPECT_NEAR(edge.pixel_m, edge.position_m.z() / kCamera.fx_px, 1e-6F);
+      EXPECT_GT(std::abs(edge.normal.dot(plate_.rotation.col(2))), 0.9999F);
+      EXPECT_LT(edge.normal.dot(edge.ray), 0.0F) << "towards the camera";
+      EXPECT_LT((edge.ray - edge.position_m.normalized()).norm(), 1e-5F);
+      // Along the nearer pair of sides.
+      const Vec2 left_m = plate_.half_m - plate_.PlaceOf(edge.position_m).cwiseAbs();
+      const Vec3 side = plate_.rotation.col(std::abs(left_m.x()) < std::abs(left_m.y()) ? 1 : 0);
+      EXPECT_GT(std::abs(edge.direction.dot(side)), 0.97F);
+    }
+  }
+  [[nodiscard]] static Vec3 Ray(int u, int v) {
+    return kCamera.Ray(static_cast<float>(u), static_cast<float>(v));
+  }
+
+ private:
+  [[nodiscard]] float& At(int u, int v) {
+    return depth_m_[static_cast<std::size_t>(v * kWidth_px + u)];
+  }
+
+  Plate plate_;
+  std::vector<float> depth_m_;
+  SamplerConfig config_;
+  std::unique_ptr<PixelMask<kWidth_px, kHeight_px>> mask_ =
+      std::make_unique<PixelMask<kWidth_px, kHeight_px>>();
+  std::unique_ptr<Sampler> sampler_ = std::make_unique<Sampler>();
+  std::unique_ptr<Sampler::Samples> samples_ = std::make_unique<Sampler::Samples>();
+  Edges edges_;
+};
+
+/// Which of the four sides have edges on them.
+int SidesFound(const Plate& plate, const Scene::Edges& edges) {
+  int sides = 0;
+  for (int axis = 0; axis < 2; ++axis) {
+    for (const float sign : {-1.0F, 1.0F}) {
+      int on_side = 0;
+      for (const EdgePoint& edge : edges) {
+        const float at_m = sign * plate.PlaceOf(edge.position_m)(axis);
+        on_side += std::abs(at_m - plate.half_m(axis)) < 0.005F ? 1 : 0;
+      }
+      sides += on_side >= 5 ? 1 : 0;
+    }
+  }
+  return sides;
+}
+
+TEST(EdgeSampler, PlateBeforeAWall_PointsLieOnItsOutlineToHalfAPixel) {
+  for (const Vec3& turn_rad :
+       {Vec3(0.0F, 0.0F, 0.0F), Vec3(0.0F, 0.0F, 0.35F), Vec3(0.4F, 0.0F, 0.1F),
+        Vec3(0.0F, -0.5F, 0.7F), Vec3(0.3F, 0.3F, -0.2F)}) {
+    SCOPED_TRACE(turn_rad.transpose());
+    const Plate plate = TurnedPlate(turn_rad);
+    Scene scene(plate);
+    const auto& edges = scene.Find();
+    EXPECT_GT(edges.size(), 60);
+    EXPECT_EQ(SidesFound(plate, edges), 4);
+    scene.ExpectOnOutline();
+  }
+}
+
+TEST(EdgeSampler, PointsOfAllSides_AreOffByLessThanAQuarterPixelOnAverage) {
+  const Plate plate = TurnedPlate(Vec3(0.2F, -0.3F, 0.3F));
+  Scene scene(plate);
+  const auto& edges = scene.Find();
+  float sum_px = 0.0F;
+  float absolute_sum_px = 0.0F;
+  for (const EdgePoint& edge : edges) {
+    const float off_px = plate.BeyondOutline(edge.position_m) / edge.pixel_m;
+    sum_px += off_px;
+    absolute_sum_px += std::abs(off_px);
+  }
+  const auto count = static_cast<float>(edges.size());
+  ASSERT_GT(edges.size(), 60);
+  EXPECT_LT(absolute_sum_px / count, 0.25F);
+  EXPECT_LT(std::abs(sum_px / count), 0.15F) << "neither inwards nor outwards";
+}
+
+TEST(EdgeSampler, BehindAnOccluder_NoEdgeIsSeen) {
+  const Plate plate = TurnedPlate(Vec3::Zero());
+  Scene scene(plate);
+  constexpr int kPost_px = 130;  // through the plate, nearer than it
+  scene.Put(kPost_px, kPost_px + 20, 0.4F);
+  const auto& edges = scene.Find();
+  EXPECT_GT(edges.size(), 40);
+  scene.ExpectOnOutline();
+  for (const EdgePoint& edge : edges) {
+    const float u_px = kCamera.Project(edge.position_m).x();
+    // At the top and the foot of the plate its outline goes on behind the post.
+    EXPECT_TRUE(u_px < static_cast<float>(kPost_px) || u_px > static_cast<float>(kPost_px + 19));
+    const float to_side_m =
+        std::abs(std::abs(plate.PlaceOf(edge.position_m).y()) - plate.half_m.y());
+    const bool beside_post = std::abs(u_px - kPost_px) < 3.0F || std::abs(u_px - kPost_px - 19) < 3;
+    if (beside_post) {
+      EXPECT_LT(to_side_m, edge.pixel_m) << "the post's edge, not the plate's";
+    }
+  }
+}
+
+TEST(EdgeSampler, PlateCutByTheImage_HasNoEdgeThere) {
+  Plate plate = TurnedPlate(Vec3::Zero());
+  plate.center_m.x() = 0.3F;
+  Scene scene(plate);
+  const auto& edges = scene.Find();
+  EXPECT_GT(edges.size(), 20);
+  EXPECT_EQ(SidesFound(plate, edges), 3);
+  scene.ExpectOnOutline();
+  for (const EdgePoint& edge : edges)
+    EXPECT_LT(kCamera.Project(edge.position_m).x(), static_cast<float>(kWidth_px) - 1.0F);
+}
+
+TEST(EdgeSampler, PlateThatLiesOnItsBackground_HasNoOccludingEdge) {
+  const Plate plate = TurnedPlate(Vec3::Zero());
+  const SamplerConfig config;
+  Scene scene(plate, plate.center_m.z() + 0.5F * config.edge_background_gap_m);
+  EXPECT_EQ(scene.Find().size(), 0);
+}
+
+TEST(EdgeSampler, NothingSeenBehind_IsNoEdge) {
+  Scene scene(TurnedPlate(Vec3::Zero()), 0.0F);
+  EXPECT_EQ(scene.Find().size(), 0);
+}
+
+TEST(EdgeSampler, NoObject_HasNoEdges) {
+  Plate beside = TurnedPlate(Vec3::Zero());
+  beside.center_m.x() = 5.0F;
+  Scene scene(beside);
+  EXPECT_EQ(scene.Find().size(), 0);
+}
+
+}  // namespace
+}  // namespace disflow::testing
