@@ -44,7 +44,8 @@ std::string FormatSummary(const Report& report, const std::vector<Plot>& plots,
     group = row.group;
     page += "| " + Escape(row.name) + " | " + row.value + " |\n";
   }
-  const fs::path base = fs::absolute(summary_dir).lexically_normal();
+  // A file in the current folder has an empty parent path, of which absolute() makes an error.
+  const fs::path base = fs::absolute(summary_dir / ".").lexically_normal();
   for (const Plot& plot : plots) {
     const fs::path file = fs::absolute(plots_dir / plot.file).lexically_normal();
     page += "\n![" + Escape(plot.title) + "](" + Link(file.lexically_relative(base)) + ")\n";

@@ -7,7 +7,8 @@
 #include "dds/dds_clock.h"
 #include "dds/dds_transforms.h"
 #include "disflow/posix/dds/ros_node.h"
-#include "input/side_mailbox.h"
+#include "input/mask_mailbox.h"
+#include "input/pose_mailbox.h"
 #include "settings/dds_address.h"
 
 namespace disflow::apps {

@@ -11,10 +11,6 @@ using posix::RosQos;
 
 constexpr std::int64_t kPathPeriod_ns = 500'000'000;
 
-void Require(const hal::Fault& fault) {
-  if (!fault.ok()) throw Failure(kOutputFailed, fault.message);
-}
-
 }  // namespace
 
 DdsObject::DdsObject(const DdsAddress& address, ObjectChannel& channel, NewsSignal& signal,

@@ -26,13 +26,13 @@ class DdsPublisher {
     options.network = {address.domain, address.interface, address.peers};
     options.name = address.name;
     options.before_iron = address.before_iron;
-    Require(node_.Open(options));
-    Require(node_.Advertise("/tf", posix::RosQos::kReliable, transforms_));
+    RequireLink(node_.Open(options));
+    RequireLink(node_.Advertise("/tf", posix::RosQos::kReliable, transforms_));
     for (ObjectChannel* const channel : channels) {
       objects_.emplace_back(address, *channel, signal_, clock_, node_, transforms_, counters_);
     }
     inputs_.emplace(address, node_, inputs.pose_mailbox(), inputs.mask_mailbox());
-    Require(node_.Announce());
+    RequireLink(node_.Announce());
     thread_ = std::thread([this] { Serve(); });
   }
   DdsPublisher(const DdsPublisher&) = delete;
@@ -61,7 +61,7 @@ class DdsPublisher {
   static constexpr std::chrono::milliseconds kTurn{20};
   static constexpr std::chrono::milliseconds kSettle{250};
 
-  void Require(const hal::Fault& fault) const {
+  void RequireLink(const hal::Fault& fault) const {
     if (!fault.ok()) throw Failure(kOutputFailed, "link '" + uri_ + "': " + fault.message);
   }
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "disflow/posix/dds/ros_messages.h"
-#include "input/side_mailbox.h"
+#include "input/pose_mailbox.h"
 
 namespace disflow::apps {
 

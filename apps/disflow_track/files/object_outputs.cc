@@ -27,7 +27,7 @@ void ObjectOutputs::WriteFlow(const TrackedObject& object, const FrameResult& re
   }
 }
 
-void ObjectOutputs::WriteMesh(const TrackedObject& object, double resolution_m,
+void ObjectOutputs::WriteMesh(TrackedObject& object, double resolution_m,
                               std::vector<std::string>& written) {
   if (!mesh_.wanted()) return;
   SurfaceMesh mesh;

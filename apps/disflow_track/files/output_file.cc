@@ -2,6 +2,7 @@
 #include "files/output_file.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -10,6 +11,7 @@
 #include <cstring>
 
 #include "program/exit_status.h"
+#include "program/stop_signal.h"
 
 namespace disflow::apps {
 namespace {
@@ -18,32 +20,65 @@ namespace {
   throw Failure(kOutputFailed, path + ": cannot be written: " + std::strerror(error));
 }
 
+/// How soon a stop signal is noticed while nobody reads from a pipe.
+constexpr int kPipePoll_ms = 50;
+/// So many polls in a row may pass after a stop signal until a pipe's reader is given up.
+constexpr int kPollsAfterStop = 1000 / kPipePoll_ms;
+
+/// @return The kind of file at a path (S_IFIFO …), following links; 0 if there is none.
+mode_t KindOf(const std::string& path) noexcept {
+  struct stat info {};
+  return ::stat(path.c_str(), &info) == 0 ? info.st_mode & S_IFMT : 0;
+}
+
+/// A pipe opens as soon as somebody reads from it. Waiting for that in open() itself would outlast
+/// a stop signal, and so would a write() to a pipe that is full.
+posix::FileDescriptor OpenPipe(const std::string& path) {
+  for (;;) {
+    posix::FileDescriptor pipe(posix::RetryOnSignal(
+        [&path] { return ::open(path.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC); }));
+    if (pipe.is_open()) return pipe;
+    if (errno != ENXIO) Fail(path, errno);
+    if (StopRequested()) {
+      throw Failure(kOutputFailed, path + ": stopped while waiting for somebody to read this pipe");
+    }
+    (void)::poll(nullptr, 0, kPipePoll_ms);
+  }
+}
+
 posix::FileDescriptor Create(const std::string& path, const std::string& shown_path) {
+  if (KindOf(path) == S_IFIFO) return OpenPipe(path);
   posix::FileDescriptor file(posix::RetryOnSignal(
       [&path] { return ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666); }));
   if (!file.is_open()) Fail(shown_path, errno);
   return file;
 }
 
-/// @return 0 or errno.
+/// Waits until a pipe has room again; its reader may take its time unless the program is to stop.
+/// @return false if the program is to stop and the reader does not read.
+bool AwaitRoom(int fd) noexcept {
+  for (int polls_after_stop = 0; polls_after_stop < kPollsAfterStop;) {
+    pollfd pipe{.fd = fd, .events = POLLOUT, .revents = 0};
+    if (::poll(&pipe, 1, kPipePoll_ms) > 0) return true;
+    if (StopRequested()) ++polls_after_stop;
+  }
+  return false;
+}
+
+/// @return 0 or errno; ECANCELED if a pipe's reader was given up.
 int WriteAll(int fd, std::string_view bytes) noexcept {
   while (!bytes.empty()) {
     const ssize_t written =
         posix::RetryOnSignal([fd, bytes] { return ::write(fd, bytes.data(), bytes.size()); });
-    if (written < 0) return errno;
-    bytes.remove_prefix(static_cast<std::size_t>(written));
+    if (written >= 0) {
+      bytes.remove_prefix(static_cast<std::size_t>(written));
+    } else if (errno != EAGAIN) {
+      return errno;
+    } else if (!AwaitRoom(fd)) {
+      return ECANCELED;
+    }
   }
   return 0;
-}
-
-bool IsDeviceOrPipe(const std::string& path) {
-  struct stat info {};
-  return ::stat(path.c_str(), &info) == 0 && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode);
-}
-
-bool IsFolder(const std::string& path) {
-  struct stat info {};
-  return ::stat(path.c_str(), &info) == 0 && S_ISDIR(info.st_mode);
 }
 
 }  // namespace
@@ -63,8 +98,9 @@ bool RecordFile::Append(std::string_view record) noexcept {
 }
 
 AtomicFile::AtomicFile(const std::string& path) : path_(path) {
-  if (IsFolder(path)) Fail(path, EISDIR);
-  if (!IsDeviceOrPipe(path)) part_path_ = path + ".part";
+  const mode_t kind = KindOf(path);
+  if (kind == S_IFDIR) Fail(path, EISDIR);
+  if (kind == 0 || kind == S_IFREG) part_path_ = PartPath(path);
   file_ = Create(part_path_.empty() ? path_ : part_path_, path_);
 }
 

@@ -9,6 +9,8 @@
 namespace disflow::apps {
 
 /// A file that grows by whole records: when the disk is full it ends after the last complete one.
+/// Opening a pipe waits until somebody reads from it; a stop signal ends that, and gives up a
+/// reader that does not read.
 class RecordFile {
  public:
   /// Creates the file or empties it. @throws Failure kOutputFailed.
@@ -26,6 +28,9 @@ class RecordFile {
   std::int64_t complete_bytes_ = 0;
   int error_ = 0;
 };
+
+/// Where an AtomicFile is written until it is committed.
+[[nodiscard]] inline std::string PartPath(const std::string& path) { return path + ".part"; }
 
 /// A file that appears, whole, only when it is committed; what stood at the path before stays until
 /// then.

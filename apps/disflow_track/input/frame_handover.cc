@@ -25,10 +25,10 @@ void CopyRows(const std::byte* source, std::ptrdiff_t stride_bytes, std::size_t 
 FrameHandover::FrameHandover(int width_px, int height_px, bool with_mask) {
   const std::size_t pixels =
       static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px);
-  for (Slot& slot : slots_) {
+  slots_.ForEach([pixels, with_mask](Slot& slot) {
     slot.depth.resize(pixels * kLargestPixel_bytes);
     if (with_mask) slot.mask.resize(pixels);
-  }
+  });
 }
 
 void FrameHandover::Slot::Copy(const DepthFrame& source) {
@@ -51,25 +51,23 @@ void FrameHandover::Slot::Copy(const DepthFrame& source) {
 }
 
 void FrameHandover::Put(const DepthFrame& frame) {
-  slots_[filling_].Copy(frame);
-  slots_[filling_].fault = Status::kOk;
-  {
-    const std::lock_guard lock(mutex_);
-    if (waiting_ && slots_[between_].fault == Status::kOk) AddSaturating(dropped_);
-    std::swap(filling_, between_);
-    waiting_ = true;
+  slots_.back().Copy(frame);
+  slots_.back().fault = Status::kOk;
+  const bool replaced = slots_.Publish();
+  if (replaced && slots_.back().fault == Status::kOk) {
+    std::uint32_t dropped = dropped_;
+    AddSaturating(dropped);
+    dropped_ = dropped;
   }
-  changed_.notify_one();
+  Wake();
 }
 
 void FrameHandover::PutFault(Status fault) {
-  {
-    const std::lock_guard lock(mutex_);
-    if (waiting_) return;
-    slots_[between_].fault = fault;
-    waiting_ = true;
-  }
-  changed_.notify_one();
+  // Only this thread puts something in, so that nothing can get in between.
+  if (slots_.HasNews()) return;
+  slots_.back().fault = fault;
+  (void)slots_.Publish();
+  Wake();
 }
 
 void FrameHandover::End(std::exception_ptr failure) noexcept {
@@ -83,25 +81,30 @@ void FrameHandover::End(std::exception_ptr failure) noexcept {
 
 FrameHandover::Taken FrameHandover::Take(std::int64_t timeout_ns, DepthFrame& frame,
                                          Status& fault) {
-  std::unique_lock lock(mutex_);
-  changed_.wait_for(lock, std::chrono::nanoseconds(timeout_ns),
-                    [this] { return waiting_ || ended_; });
-  if (waiting_) {
-    std::swap(between_, taken_);
-    waiting_ = false;
-    fault = slots_[taken_].fault;
+  const bool ended = AwaitNews(timeout_ns);
+  if (slots_.Take()) {
+    fault = slots_.front().fault;
     if (fault != Status::kOk) return Taken::kFault;
-    frame = slots_[taken_].frame;
+    frame = slots_.front().frame;
     return Taken::kFrame;
   }
-  if (!ended_) return Taken::kNothing;
+  if (!ended) return Taken::kNothing;
+  // After the end this thread is the only one left.
   if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
   return Taken::kEnd;
 }
 
-std::uint32_t FrameHandover::dropped() const noexcept {
-  const std::lock_guard lock(mutex_);
-  return dropped_;
+bool FrameHandover::AwaitNews(std::int64_t timeout_ns) {
+  std::unique_lock lock(mutex_);
+  changed_.wait_for(lock, std::chrono::nanoseconds(timeout_ns),
+                    [this] { return slots_.HasNews() || ended_; });
+  return ended_;
+}
+
+/// Who waits has looked for news with the mutex locked: it either has seen this, or sleeps by now.
+void FrameHandover::Wake() noexcept {
+  { const std::lock_guard lock(mutex_); }
+  changed_.notify_one();
 }
 
 }  // namespace disflow::apps

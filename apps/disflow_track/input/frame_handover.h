@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
+#include <atomic>
 #include <condition_variable>
 #include <cstdint>
 #include <exception>
@@ -9,12 +9,13 @@
 #include <vector>
 
 #include "disflow/depth/depth_frame.h"
+#include "disflow/posix/triple_buffer.h"
 
 namespace disflow::apps {
 
 /// Hands frames from the capture thread to the tracking thread: room for one, and the newest wins.
-/// Three buffers, one on either side and one between, so that neither side waits for the other.
-/// Frames are copied, because a driver's buffers are few and their owner reuses them.
+/// Frames are copied, because a driver's buffers are few and their owner reuses them; neither side
+/// waits for the other's copying.
 class FrameHandover {
  public:
   enum class Taken : std::uint8_t { kFrame, kFault, kNothing, kEnd };
@@ -38,7 +39,7 @@ class FrameHandover {
   [[nodiscard]] Taken Take(std::int64_t timeout_ns, DepthFrame& frame, Status& fault);
 
   /// Frames that were replaced by newer ones; saturating.
-  [[nodiscard]] std::uint32_t dropped() const noexcept;
+  [[nodiscard]] std::uint32_t dropped() const noexcept { return dropped_; }
 
  private:
   struct Slot {
@@ -50,17 +51,17 @@ class FrameHandover {
     void Copy(const DepthFrame& source);
   };
 
-  std::array<Slot, 3> slots_;
-  std::size_t filling_ = 0;  ///< The capture thread's own.
-  mutable std::mutex mutex_;
-  std::condition_variable changed_;
+  /// @return true if there is nothing more to wait for.
+  [[nodiscard]] bool AwaitNews(std::int64_t timeout_ns);
+  void Wake() noexcept;
+
+  posix::TripleBuffer<Slot> slots_;
+  std::atomic<std::uint32_t> dropped_ = 0;
+  std::mutex mutex_;
+  std::condition_variable changed_;  ///< There is news in slots_, or an end.
   // Under the mutex.
-  std::size_t between_ = 1;
-  bool waiting_ = false;
   bool ended_ = false;
   std::exception_ptr failure_;
-  std::uint32_t dropped_ = 0;
-  std::size_t taken_ = 2;  ///< The tracking thread's own.
 };
 
 }  // namespace disflow::apps

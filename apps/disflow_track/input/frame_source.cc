@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "input/frame_source.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "program/exit_status.h"
@@ -12,8 +13,6 @@ namespace {
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 /// Also how soon a stop signal is noticed.
 constexpr std::int64_t kTimeout_ns = kSecond_ns / 5;
-/// More than a slow frame or two.
-constexpr std::int64_t kLatest_ns = kSecond_ns / 2;
 constexpr std::int64_t kSaidUnreadable = 5;
 constexpr std::uint32_t kSaidRestarts = 5;
 
@@ -64,16 +63,7 @@ std::int64_t FrameSource::AgeNs(StampNs stamp_ns) noexcept {
 
 void FrameSource::Pace(StampNs stamp_ns) noexcept {
   if (!paced_) return;
-  if (!started_) {
-    started_ = true;
-    start_ns_ = clock_.NowNs();
-    first_stamp_ns_ = stamp_ns;
-  }
-  // A damaged stamp must not put the program to sleep for years.
-  const std::int64_t due_ns = start_ns_ + (stamp_ns - first_stamp_ns_);
-  // After a pause the sequence goes on at its pace instead of making up for the time.
-  const std::int64_t late_ns = clock_.NowNs() - due_ns;
-  if (late_ns > kLatest_ns) start_ns_ += late_ns;
+  const std::int64_t due_ns = pacer_.DueNs(stamp_ns, clock_.NowNs());
   while (!StopRequested()) {
     const std::int64_t now_ns = clock_.NowNs();
     if (now_ns >= due_ns) return;

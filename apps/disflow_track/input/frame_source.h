@@ -7,6 +7,7 @@
 
 #include "disflow/hal/clock.h"
 #include "disflow/hal/depth_sensor.h"
+#include "input/stamp_pacer.h"
 #include "program/console.h"
 #include "settings/options.h"
 
@@ -54,9 +55,7 @@ class FrameSource {
   bool lost_ = false;
   Status open_status_ = Status::kOk;  ///< Of the last attempt to open a lost device.
   std::uint32_t restarts_ = 0;        ///< Said so far.
-  bool started_ = false;
-  std::int64_t start_ns_ = 0;  ///< On the clock, when the first frame was taken.
-  StampNs first_stamp_ns_ = 0;
+  StampPacer pacer_;
 };
 
 }  // namespace disflow::apps

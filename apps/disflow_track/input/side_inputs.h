@@ -9,7 +9,8 @@
 #include "disflow/hal/camera_pose_history.h"
 #include "disflow/hal/depth_sensor.h"
 #include "disflow/posix/mask_source.h"
-#include "input/side_mailbox.h"
+#include "input/mask_mailbox.h"
+#include "input/pose_mailbox.h"
 #include "program/console.h"
 #include "settings/options.h"
 

@@ -3,11 +3,10 @@
 
 #include <cstddef>
 
-#include "disflow/field/distance_query.h"
-#include "disflow/surface_extractor.h"
 #include "disflow/tracker.h"
 #include "flow_cloud.h"
 #include "objects/depth_picture.h"
+#include "objects/model_reader.h"
 #include "program/frame_result.h"
 
 namespace disflow::apps {
@@ -44,16 +43,6 @@ class ModelSnapshot {
   DepthPicture picture_;
 };
 
-/// How a model's surface is drawn.
-/// @param resolution_m 0: finer than the model's own detail is waste, coarser loses it.
-[[nodiscard]] inline SurfaceOptions DrawingOptions(const FieldConfig& field,
-                                                   float resolution_m) noexcept {
-  SurfaceOptions surface;
-  surface.resolution_m = resolution_m > 0.0F ? resolution_m : field.cell_size_m / 10.0F;
-  surface.support_radius_m = 1.6F * field.merge_radius_m;
-  return surface;
-}
-
 template <class Limits>
 class TrackerSnapshot final : public ModelSnapshot {
  public:
@@ -74,22 +63,20 @@ class TrackerSnapshot final : public ModelSnapshot {
   [[nodiscard]] const Config& config() const noexcept override { return config_; }
 
   [[nodiscard]] Expected<DistanceQuery> Query(const Vec3& x_m) noexcept override {
-    const float support_radius_m = DrawingOptions(config_.field, 0.0F).support_radius_m;
-    return DistanceQuerier<Limits>(field_, workspace_.gp, support_radius_m).Query(x_m);
+    return reader_.Query(field_, config_.field, x_m);
   }
   int StreamSamples(SampleSink& sink) const noexcept override {
     return disflow::StreamSamples(field_, sink);
   }
   [[nodiscard]] Expected<SurfaceCounts> ExtractSurface(float resolution_m,
                                                        TriangleSink& sink) noexcept override {
-    return disflow::ExtractSurface(field_, DrawingOptions(config_.field, resolution_m), workspace_,
-                                   sink);
+    return reader_.Extract(field_, config_.field, resolution_m, sink);
   }
 
  private:
   Config config_;
   typename Tracker<Limits>::Field field_;
-  SurfaceWorkspace<Limits> workspace_;
+  ModelReader<Limits> reader_;
 };
 
 }  // namespace disflow::apps

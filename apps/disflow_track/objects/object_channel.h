@@ -95,7 +95,7 @@ class ObjectChannel {
     return std::make_unique<TrackerSnapshot<Limits>>();
   }
 
-  /// A listener more, with a queue and a snapshot of its own. Before the run starts.
+  /// Adds a listener with a queue and a snapshot of its own. Only before the run starts.
   /// @param signal Raised after every frame; outlives the channel.
   /// @return Lives as long as the channel.
   [[nodiscard]] ChannelReader& AddReader(NewsSignal& signal);

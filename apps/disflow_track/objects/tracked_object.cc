@@ -29,19 +29,16 @@ class TrackedObjectOf final : public TrackedObject {
   }
 
   Expected<DistanceQuery> DoQuery(const Vec3& x_m) noexcept override {
-    const FieldConfig& field = tracker_.config().field;
-    const float support_radius_m = DrawingOptions(field, 0.0F).support_radius_m;
-    return DistanceQuerier<Limits>(tracker_.field(), workspace_, support_radius_m).Query(x_m);
+    return reader_.Query(tracker_.field(), tracker_.config().field, x_m);
   }
 
-  void DoExtract(const SurfaceOptions& options, SurfaceMesh& mesh) const override {
-    static SurfaceWorkspace<Limits> workspace;  // too large for a stack
+  void DoExtract(float resolution_m, SurfaceMesh& mesh) override {
     // An empty model gives an empty mesh, which is said where it is written.
-    (void)ExtractSurface(tracker_.field(), options, workspace, mesh);
+    (void)reader_.Extract(tracker_.field(), tracker_.config().field, resolution_m, mesh);
   }
 
   Tracker<Limits> tracker_;
-  typename DistanceQuerier<Limits>::Workspace workspace_;
+  ModelReader<Limits> reader_;
 };
 
 }  // namespace
@@ -52,10 +49,6 @@ void TrackedObject::Track(const DepthFrame& frame, StageClock clock, FrameResult
   if (!options_.uses_mask) own.mask = {};
   own.mask.label = options_.label;
   DoTrack(own, clock, result);
-}
-
-void TrackedObject::ExtractMesh(double resolution_m, SurfaceMesh& mesh) const {
-  DoExtract(DrawingOptions(options_.config.field, static_cast<float>(resolution_m)), mesh);
 }
 
 std::unique_ptr<TrackedObject> MakeTrackedObject(ProfileName profile,

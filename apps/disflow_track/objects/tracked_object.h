@@ -39,7 +39,9 @@ class TrackedObject {
   /// The model at a point of the object frame; see DistanceQuerier.
   [[nodiscard]] Expected<DistanceQuery> Query(const Vec3& x_m) noexcept { return DoQuery(x_m); }
   /// @param resolution_m 0: as fine as the model's own detail. Nothing known gives an empty mesh.
-  void ExtractMesh(double resolution_m, SurfaceMesh& mesh) const;
+  void ExtractMesh(double resolution_m, SurfaceMesh& mesh) {
+    DoExtract(static_cast<float>(resolution_m), mesh);
+  }
 
   [[nodiscard]] const ObjectOptions& options() const noexcept { return options_; }
   [[nodiscard]] ObjectChannel& channel() noexcept { return channel_; }
@@ -50,7 +52,7 @@ class TrackedObject {
   virtual void DoShow(const FrameResult& result, const DepthFrame* frame) = 0;
   virtual int DoStreamFlow(const Estimate& estimate, FlowSink& sink) const noexcept = 0;
   virtual Expected<DistanceQuery> DoQuery(const Vec3& x_m) noexcept = 0;
-  virtual void DoExtract(const SurfaceOptions& options, SurfaceMesh& mesh) const = 0;
+  virtual void DoExtract(float resolution_m, SurfaceMesh& mesh) = 0;
 
   const ObjectOptions& options_;
   ObjectChannel channel_;

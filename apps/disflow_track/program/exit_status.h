@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "disflow/hal/fault.h"
+
 namespace disflow::apps {
 
 enum ExitStatus : int { kDone = 0, kWrongUsage = 2, kInputFailed = 3, kOutputFailed = 4 };
@@ -18,5 +20,10 @@ class Failure : public std::runtime_error {
  private:
   ExitStatus status_;
 };
+
+/// @throws Failure with the fault's words, if there is one.
+inline void Require(const hal::Fault& fault, ExitStatus status = kOutputFailed) {
+  if (!fault.ok()) throw Failure(status, fault.message);
+}
 
 }  // namespace disflow::apps

@@ -6,6 +6,7 @@
 
 #include "dds/dds_output.h"
 #include "disflow/posix/monotonic_clock.h"
+#include "files/output_names.h"
 #include "input/frame_feed.h"
 #include "input/sensor_choice.h"
 #include "input/side_inputs.h"
@@ -245,6 +246,9 @@ class TrackingRun {
 
 }  // namespace
 
-ExitStatus Run(const Options& options) { return TrackingRun(options).Run(); }
+ExitStatus Run(const Options& options) {
+  RefuseSharedOutputs(options);
+  return TrackingRun(options).Run();
+}
 
 }  // namespace disflow::apps

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "settings/camera_file.h"
 
-#include <toml++/toml.h>
-
 #include <array>
 #include <cmath>
 #include <cstdio>
 
 #include "disflow/posix/camera/camera_address.h"
-#include "program/exit_status.h"
+#include "settings/toml_file.h"
 
 namespace disflow::apps {
 namespace {
@@ -38,26 +36,11 @@ constexpr std::array kKeys{
 constexpr const char* kWhatIsNeeded =
     "a camera file has width, height, fx, fy, cx, cy and perhaps depth_scale";
 
-[[noreturn]] void Refuse(const std::string& path, const toml::node* node, const std::string& text) {
-  const std::string at = node != nullptr ? ":" + std::to_string(node->source().begin.line) : "";
-  throw Failure(kWrongUsage, path + at + ": " + text);
-}
-
-toml::table Parse(const std::string& path) {
-  try {
-    return toml::parse_file(path);
-  } catch (const toml::parse_error& error) {
-    const auto line = error.source().begin.line;
-    const std::string at = line > 0 ? ":" + std::to_string(line) : "";
-    throw Failure(kWrongUsage, path + at + ": " + std::string(error.description()));
-  }
-}
-
 double ReadKey(const std::string& path, const toml::table& table, const Key& key) {
   const toml::node* const node = table.get(key.name);
   if (node == nullptr) {
     if (!key.required) return 0.0;
-    Refuse(path, nullptr, std::string(key.name) + " is missing; " + kWhatIsNeeded);
+    Refuse(path + ": ", std::string(key.name) + " is missing; " + kWhatIsNeeded);
   }
   const double value = node->value<double>().value_or(std::nan(""));
   // Written so that NaN fails.
@@ -66,7 +49,7 @@ double ReadKey(const std::string& path, const toml::table& table, const Key& key
     std::array<char, 128> text{};
     (void)std::snprintf(text.data(), text.size(), "%s is not a %snumber from %g to %g", key.name,
                         key.whole ? "whole " : "", key.min, key.max);
-    Refuse(path, node, text.data());
+    Refuse(Where(path, *node), text.data());
   }
   return value;
 }
@@ -76,14 +59,14 @@ void RefuseUnknownKeys(const std::string& path, const toml::table& table) {
     bool known = false;
     for (const Key& key : kKeys) known = known || name.str() == key.name;
     if (known) continue;
-    Refuse(path, &node, std::string(name.str()).append(" is not known; ") + kWhatIsNeeded);
+    Refuse(Where(path, node), std::string(name.str()).append(" is not known; ") + kWhatIsNeeded);
   }
 }
 
 }  // namespace
 
 posix::CameraDescription ReadCameraFile(const std::string& path) {
-  const toml::table table = Parse(path);
+  const toml::table table = ParseTomlFile(path);
   RefuseUnknownKeys(path, table);
   std::array<double, kKeys.size()> values{};
   for (std::size_t i = 0; i < kKeys.size(); ++i) values[i] = ReadKey(path, table, kKeys[i]);

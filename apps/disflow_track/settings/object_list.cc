@@ -9,17 +9,13 @@
 #include <optional>
 
 #include "disflow/hal/mavlink/telemetry.h"
-#include "program/exit_status.h"
+#include "settings/refusal.h"
 
 namespace disflow::apps {
 namespace {
 
 constexpr std::size_t kLongestName = 32;
 constexpr const char* kKeys = "name, label, index, seed, roi, csv, mesh, mesh_picture, flow";
-
-[[noreturn]] void Refuse(const std::string& where, const std::string& text) {
-  throw Failure(kWrongUsage, where + text);
-}
 
 /// What one table says, not yet compared with the others.
 struct Entry {
@@ -142,11 +138,6 @@ void CheckPair(const Entry& first, const Entry& second) {
   }
   if (a.index == b.index)
     Refuse(second.where, both + " have the same index " + std::to_string(a.index));
-  for (const auto file :
-       {&ObjectFiles::csv, &ObjectFiles::mesh, &ObjectFiles::mesh_picture, &ObjectFiles::flow}) {
-    if (!(a.files.*file).empty() && a.files.*file == b.files.*file)
-      Refuse(second.where, both + " would both write " + a.files.*file);
-  }
 }
 
 /// "run.csv" of the object "box" is "run-box.csv".

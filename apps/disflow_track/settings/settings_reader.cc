@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <toml++/toml.h>
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -8,8 +6,9 @@
 #include <type_traits>
 
 #include "disflow/config_fields.h"
-#include "program/exit_status.h"
+#include "settings/refusal.h"
 #include "settings/settings.h"
+#include "settings/toml_file.h"
 
 namespace disflow::apps {
 namespace {
@@ -20,16 +19,6 @@ struct Number {
   std::string text;  ///< As the person wrote it.
 };
 
-[[noreturn]] void Refuse(const std::string& where, const std::string& text) {
-  throw Failure(kWrongUsage, where + text);
-}
-
-std::string Compact(double value) {
-  char text[32];
-  (void)std::snprintf(text, sizeof(text), "%.9g", value);
-  return text;
-}
-
 /// @param where Ahead of every message, e.g. "run.toml:12: ".
 void Assign(const std::string& where, std::string_view name, const Number& number, Config& config) {
   bool found = false;
@@ -38,7 +27,7 @@ void Assign(const std::string& where, std::string_view name, const Number& numbe
     found = true;
     using Value = std::remove_reference_t<decltype(field.value)>;
     const std::string range =
-        "allowed: " + Compact(field.min) + " to " + Compact(field.max) + " " + field.unit;
+        "allowed: " + NumberText(field.min) + " to " + NumberText(field.max) + " " + field.unit;
     if (std::is_integral_v<Value> && !number.is_integer) {
       Refuse(where, std::string(name) + " = " + number.text + " is not a whole number; " + range);
     }
@@ -52,10 +41,6 @@ void Assign(const std::string& where, std::string_view name, const Number& numbe
     Refuse(where,
            "there is no setting " + std::string(name) + "; disflow_track --print-config lists all");
   }
-}
-
-std::string Where(const std::string& file, const toml::node& node) {
-  return file + ":" + std::to_string(node.source().begin.line) + ": ";
 }
 
 void AssignNode(const std::string& file, const std::string& name, const toml::node& node,
@@ -83,7 +68,7 @@ bool AppendValue(const toml::node& node, std::vector<std::string>& values) {
   } else if (const auto* integer = node.as_integer()) {
     values.push_back(std::to_string(integer->get()));
   } else if (const auto* floating = node.as_floating_point()) {
-    values.push_back(Compact(floating->get()));
+    values.push_back(NumberText(floating->get()));
   } else {
     return false;
   }
@@ -146,14 +131,7 @@ std::vector<ObjectTable> ReadObjects(const std::string& file, const toml::node& 
 
 SettingsFile LoadSettings(const std::string& file, Config& config) {
   SettingsFile settings;
-  toml::table root;
-  try {
-    root = toml::parse_file(file);
-  } catch (const toml::parse_error& error) {
-    const auto line = error.source().begin.line;
-    const std::string at = line > 0 ? ":" + std::to_string(line) : "";
-    Refuse(file + at + ": ", std::string(error.description()));
-  }
+  const toml::table root = ParseTomlFile(file);
   for (const auto& [section, node] : root) {
     if (section == "object") continue;
     const toml::table* const table = node.as_table();
@@ -190,9 +168,9 @@ void ApplySetting(std::string_view assignment, Config& config) {
 void CheckSettings(const Config& config) {
   const ConfigIssue issue = Validate(config);
   if (issue.status() == Status::kOk) return;
-  Refuse("", std::string(issue.field) + " = " + Compact(issue.value) +
-                 " does not fit the other settings; allowed: " + Compact(issue.min) + " to " +
-                 Compact(issue.max));
+  Refuse("", std::string(issue.field) + " = " + NumberText(issue.value) +
+                 " does not fit the other settings; allowed: " + NumberText(issue.min) + " to " +
+                 NumberText(issue.max));
 }
 
 }  // namespace disflow::apps

@@ -5,16 +5,11 @@
 #include <string_view>
 
 #include "disflow/config_fields.h"
+#include "settings/refusal.h"
 #include "settings/settings.h"
 
 namespace disflow::apps {
 namespace {
-
-std::string Shortest(double value) {
-  char text[32];
-  (void)std::snprintf(text, sizeof(text), "%.9g", value);
-  return text;
-}
 
 std::string Literal(int value) { return std::to_string(value); }
 
@@ -49,7 +44,7 @@ std::string FormatSettings(const Config& config) {
     }
     text.append("# ").append(field.meaning);
     text.append("\n# unit ").append(field.unit);
-    text.append(", ").append(Shortest(field.min)).append(" to ").append(Shortest(field.max));
+    text.append(", ").append(NumberText(field.min)).append(" to ").append(NumberText(field.max));
     text.append("\n").append(name.key).append(" = ").append(Literal(field.value)).append("\n");
   });
   return text;
@@ -74,7 +69,7 @@ std::string FormatSettingsPage() {
       text.append("| setting | default | range | unit | meaning |\n|---|---|---|---|---|\n");
     }
     text.append("| `").append(field.name).append("` | ").append(Literal(field.value));
-    text.append(" | ").append(Shortest(field.min)).append(" to ").append(Shortest(field.max));
+    text.append(" | ").append(NumberText(field.min)).append(" to ").append(NumberText(field.max));
     text.append(" | ").append(field.unit).append(" | ").append(field.meaning).append(" |\n");
   });
   return text;

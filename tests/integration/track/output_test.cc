@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/ioctl.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <string>
 #include <thread>
 #include <vector>
@@ -17,6 +22,8 @@
 
 namespace disflow::test {
 namespace {
+
+namespace fs = std::filesystem;
 
 /// Long enough that it never ends by itself during a test.
 constexpr const char* kEndlessSensor = "sim:bottle?frames=30000";
@@ -77,6 +84,77 @@ TEST_F(OutputTest, FailedStart_LeavesEarlierResultsAlone) {
   EXPECT_EQ(outcome.exit_status, 4) << outcome.err;
   EXPECT_EQ(ReadFile(Path("run.csv")), "earlier\n");
   EXPECT_EQ(ReadFile(Path("run.ply")), "earlier\n");
+}
+
+TEST_F(OutputTest, OneNameForTwoOutputs_IsRefusedAndNothingIsTouched) {
+  WriteFile(Path("run"), "earlier\n");
+  fs::create_hard_link(Path("run"), Path("other"));
+  for (const char* other : {"run", "./run", "other"}) {
+    const Outcome outcome =
+        RunTrack({"--sensor", "sim:bottle?frames=3", "--csv", Path("run"), "--mesh", Path(other)},
+                 scratch());
+    EXPECT_EQ(outcome.exit_status, 2) << outcome.err;
+    EXPECT_NE(outcome.err.find("--csv and --mesh"), std::string::npos) << outcome.err;
+    EXPECT_EQ(ReadFile(Path("run")), "earlier\n");
+  }
+}
+
+class PipeTest : public OutputTest {
+ protected:
+  PipeTest() { EXPECT_EQ(::mkfifo(Path("pipe").c_str(), 0600), 0); }
+};
+
+TEST_F(PipeTest, NobodyReads_FirstStopSignalEndsTheProgramWithAMessage) {
+  ChildProcess track(
+      DISFLOW_TRACK,
+      {"--sensor", kEndlessSensor, "--headless", "--csv", Path("pipe"), "--flow", Path("flow")},
+      scratch());
+  // Made before the trajectory is opened: by then the program takes signals.
+  for (int i = 0; i < 3000 && !fs::exists(Path("flow")); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  track.Signal(SIGTERM);
+  const Outcome outcome = track.Wait();
+  EXPECT_EQ(outcome.exit_status, 4) << outcome.err;
+  EXPECT_NE(outcome.err.find("pipe: stopped while waiting"), std::string::npos) << outcome.err;
+}
+
+TEST_F(PipeTest, ReaderThatStopsReading_DoesNotOutlastAStopSignal) {
+  const int reader = ::open(Path("pipe").c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  ASSERT_GE(reader, 0);
+  ASSERT_GE(::fcntl(reader, F_SETPIPE_SZ, 4096), 0);  // room for the header and a row or two
+  ChildProcess track(DISFLOW_TRACK,
+                     {"--sensor", kEndlessSensor, "--headless", "--csv", Path("pipe")}, scratch());
+  // It is being written, and nobody takes anything out.
+  int waiting = 0;
+  for (int i = 0; i < 3000 && waiting < 2000; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    ASSERT_EQ(::ioctl(reader, FIONREAD, &waiting), 0);
+  }
+  ASSERT_GE(waiting, 2000);
+  track.Signal(SIGTERM);
+  const Outcome outcome = track.Wait();
+  EXPECT_GE(outcome.exit_status, 0) << "ended by itself: " << outcome.err;
+  ::close(reader);
+}
+
+TEST_F(PipeTest, ReaderThatGoesAway_IsSaidAndTheOtherOutputsAreComplete) {
+  const int reader = ::open(Path("pipe").c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  ASSERT_GE(reader, 0);
+  ChildProcess track(DISFLOW_TRACK,
+                     {"--sensor", "sim:bottle?frames=20", "--headless", "--csv", Path("pipe"),
+                      "--mesh", Path("run.ply")},
+                     scratch());
+  int waiting = 0;
+  for (int i = 0; i < 3000 && waiting == 0; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    ASSERT_EQ(::ioctl(reader, FIONREAD, &waiting), 0);
+  }
+  ::close(reader);
+  const Outcome outcome = track.Wait();
+  EXPECT_EQ(outcome.exit_status, 4) << outcome.err;
+  EXPECT_NE(outcome.err.find("pipe: cannot be written: Broken pipe"), std::string::npos)
+      << outcome.err;
+  EXPECT_FALSE(apps::LoadPly(Path("run.ply")).vertices.empty());
 }
 
 /// Limits the size of the files that programs started meanwhile may write, as a full disk would.

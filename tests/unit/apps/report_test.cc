@@ -132,6 +132,14 @@ TEST(SummaryTest, Links_AreRelativeAndCannotBreakOut) {
   EXPECT_NE(page.find("a\\|b\\]\\(x\\)"), std::string::npos) << page;
 }
 
+TEST(SummaryTest, PageInTheCurrentFolder_LinksFromThere) {
+  // "s.md" has no folder in its name.
+  const std::string page = FormatSummary(MakeReport(), {{"errors.png", "Errors"}}, "", "plots");
+  EXPECT_NE(page.find("![Errors](plots/errors.png)"), std::string::npos) << page;
+  const std::string beside = FormatSummary(MakeReport(), {{"errors.png", "Errors"}}, "", "");
+  EXPECT_NE(beside.find("![Errors](errors.png)"), std::string::npos) << beside;
+}
+
 TEST(PlotsTest, EveryPlot_IsWrittenEvenIntoAFolderWithAStrangeName) {
   const ScratchDir dir;
   const PathGuard path(

@@ -43,7 +43,7 @@ MaskCamera::MaskCamera(const std::string& name, const CameraAddress& address, in
     : MaskSource(name, width_px, height_px, max_age_ns),
       sensor_(AddressOf(address, width_px, height_px), {}, kernel, sys_root, dev_root) {
   const auto pixels = static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px);
-  for (Mask* mask : {&incoming_, &between_, &current_}) mask->pixels.resize(pixels);
+  masks_.ForEach([pixels](Mask& mask) { mask.pixels.resize(pixels); });
   thread_ = std::thread([this] { TakeAll(); });
 }
 
@@ -53,20 +53,11 @@ MaskCamera::~MaskCamera() {
 }
 
 Status MaskCamera::DoNewest(Newest& newest) noexcept {
-  Status status = Status::kOk;
-  {
-    const std::lock_guard lock(mutex_);
-    status = status_;
-    if (is_new_) {
-      std::swap(current_, between_);
-      is_new_ = false;
-      has_current_ = true;
-    }
-  }
+  has_current_ = masks_.Take() || has_current_;
   // The last good one stands until it is too old, whatever has become of the device.
-  newest = {current_.pixels.data(), current_.stamp_ns};
+  newest = {masks_.front().pixels.data(), masks_.front().stamp_ns};
   if (has_current_) return Status::kOk;
-  const bool is_wrong = status == Status::kUnsupported;
+  const bool is_wrong = status_ == Status::kUnsupported;
   AddSaturating(is_wrong ? counters_.wrong_size : counters_.missing);
   return is_wrong ? Status::kMaskSizeMismatch : Status::kNotFound;
 }
@@ -79,7 +70,7 @@ void MaskCamera::TakeAll() noexcept {
     }
     const hal::Fault fault = sensor_.Open();
     open_ = fault.ok();
-    Report(fault.status);
+    status_.store(fault.status);
     if (!open_) Nap();
   }
   sensor_.Close();
@@ -91,23 +82,17 @@ void MaskCamera::TakeOne() noexcept {
   if (fault.status == Status::kDeviceLost || fault.status == Status::kUnsupported) {
     sensor_.Close();
     open_ = false;
-    Report(fault.status);
+    status_.store(fault.status);
   }
   if (!fault.ok()) return;
   // The rows are bytes, whatever the view calls them.
+  Mask& mask = masks_.back();
   const auto width = static_cast<std::size_t>(width_px_);
   for (int v = 0; v < height_px_; ++v) {
-    std::memcpy(&incoming_.pixels[static_cast<std::size_t>(v) * width], frame.depth.row(v), width);
+    std::memcpy(&mask.pixels[static_cast<std::size_t>(v) * width], frame.depth.row(v), width);
   }
-  incoming_.stamp_ns = frame.stamp_ns;
-  const std::lock_guard lock(mutex_);
-  std::swap(incoming_, between_);
-  is_new_ = true;
-}
-
-void MaskCamera::Report(Status status) noexcept {
-  const std::lock_guard lock(mutex_);
-  status_ = status;
+  mask.stamp_ns = frame.stamp_ns;
+  (void)masks_.Publish();
 }
 
 void MaskCamera::Nap() const noexcept {

@@ -3,13 +3,13 @@
 
 #include <atomic>
 #include <cstdint>
-#include <mutex>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "disflow/posix/camera/v4l2_sensor.h"
 #include "disflow/posix/mask_source.h"
+#include "disflow/posix/triple_buffer.h"
 
 namespace disflow::posix {
 
@@ -36,21 +36,13 @@ class MaskCamera final : public MaskSource {
   // In the thread.
   void TakeAll() noexcept;
   void TakeOne() noexcept;
-  void Report(Status status) noexcept;
   void Nap() const noexcept;
 
   V4l2Sensor sensor_;
   bool open_ = false;
-  Mask incoming_;
-
-  std::mutex mutex_;
-  // Under the mutex.
-  Mask between_;
-  bool is_new_ = false;
-  Status status_ = Status::kNotFound;  ///< Why there is none, if there is none.
-
-  Mask current_;  ///< Of who calls Attach().
-  bool has_current_ = false;
+  TripleBuffer<Mask> masks_;
+  std::atomic<Status> status_ = Status::kNotFound;  ///< Why there is none, if there is none.
+  bool has_current_ = false;                        ///< Of who calls Attach().
   std::atomic<bool> stop_ = false;
   std::thread thread_;
 };
