@@ -129,7 +129,7 @@ TrajectoryCsv::TrajectoryCsv(const std::string& path, bool timing) : file_(path)
 }
 
 bool TrajectoryCsv::Write(const FrameResult& result) noexcept {
-  const Estimate& estimate = result.estimate;
+  const Estimate estimate = Published(result.estimate);
   const auto milliseconds = [this](std::int64_t ns) {
     return timing_ ? static_cast<float>(static_cast<double>(ns) * 1e-6) : 0.0F;
   };
