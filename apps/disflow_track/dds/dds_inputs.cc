@@ -12,10 +12,6 @@ namespace {
 namespace ros = posix::ros;
 using posix::RosQos;
 
-void Require(const hal::Fault& fault) {
-  if (!fault.ok()) throw Failure(kOutputFailed, fault.message);
-}
-
 }  // namespace
 
 DdsInputs::DdsInputs(const DdsAddress& address, posix::RosNode& node, PoseMailbox* poses,

@@ -10,10 +10,6 @@ using posix::RosQos;
 
 constexpr std::int64_t kPatience_ns = 1'000'000'000;
 
-void Require(const hal::Fault& fault) {
-  if (!fault.ok()) throw Failure(kOutputFailed, fault.message);
-}
-
 }  // namespace
 
 DdsModel::DdsModel(const std::string& prefix, ObjectChannel& channel, ChannelReader& reader,

@@ -16,8 +16,7 @@ Outputs::Outputs(const Options& options, Console& console, hal::CameraPoseHistor
 void Outputs::StartRecording(const std::string& folder) {
   constexpr const char* kObject = "object";
   recording_.emplace();
-  const hal::Fault fault = recording_->Open(folder, kObject, /*overwrite=*/false);
-  if (!fault.ok()) throw Failure(kOutputFailed, fault.message);
+  Require(recording_->Open(folder, kObject, /*overwrite=*/false));
 }
 
 void Outputs::Deliver(std::span<const FrameResult> results, const DepthFrame* frame,

@@ -40,7 +40,7 @@ constexpr const char* kWhatIsNeeded =
 
 [[noreturn]] void Refuse(const std::string& path, const toml::node* node, const std::string& text) {
   const std::string at = node != nullptr ? ":" + std::to_string(node->source().begin.line) : "";
-  throw Failure(kWrongUsage, path + at + ": " + text);
+  apps::Refuse(path + at + ": ", text);
 }
 
 toml::table Parse(const std::string& path) {

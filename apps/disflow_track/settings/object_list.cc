@@ -17,10 +17,6 @@ namespace {
 constexpr std::size_t kLongestName = 32;
 constexpr const char* kKeys = "name, label, index, seed, roi, csv, mesh, mesh_picture, flow";
 
-[[noreturn]] void Refuse(const std::string& where, const std::string& text) {
-  throw Failure(kWrongUsage, where + text);
-}
-
 /// What one table says, not yet compared with the others.
 struct Entry {
   std::string where;

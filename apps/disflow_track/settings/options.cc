@@ -234,9 +234,7 @@ void CheckCameraPose(const Options& options) {
 }
 
 void CheckMaskStream(const Options& options) {
-  if (options.mask_stream.empty()) return;
-  const hal::Fault fault = posix::CheckMaskName(options.mask_stream);
-  if (!fault.ok()) throw Failure(kWrongUsage, fault.message);
+  if (!options.mask_stream.empty()) Require(posix::CheckMaskName(options.mask_stream), kWrongUsage);
 }
 
 void CheckResolution(const Options& options) {

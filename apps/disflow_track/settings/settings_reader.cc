@@ -20,10 +20,6 @@ struct Number {
   std::string text;  ///< As the person wrote it.
 };
 
-[[noreturn]] void Refuse(const std::string& where, const std::string& text) {
-  throw Failure(kWrongUsage, where + text);
-}
-
 std::string Compact(double value) {
   char text[32];
   (void)std::snprintf(text, sizeof(text), "%.9g", value);
