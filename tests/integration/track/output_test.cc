@@ -4,13 +4,12 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <chrono>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "child_process.h"
 #include "estimate_csv.h"
+#include "eventually.h"
 #include "model_file.h"
 #include "ply_file.h"
 #include "scratch_folder.h"
@@ -25,12 +24,11 @@ class OutputTest : public ScratchFolderTest {
  protected:
   /// Waits until a running program has written some lines.
   void AwaitLines(const std::string& file, std::ptrdiff_t lines) const {
-    for (int i = 0; i < 3000; ++i) {
+    ASSERT_TRUE(Eventually([&] {
       const std::string text = ReadFile(file);
-      if (std::count(text.begin(), text.end(), '\n') >= lines) return;
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-    FAIL() << file << " does not grow";
+      return std::count(text.begin(), text.end(), '\n') >= lines;
+    })) << file
+        << " does not grow";
   }
 };
 
