@@ -63,7 +63,7 @@ Status MaskCamera::DoNewest(Newest& newest) noexcept {
       has_current_ = true;
     }
   }
-  // The last good one stands until it is too old, whatever has become of the device.
+  // The last good mask is used until it is too old, whatever has become of the device.
   newest = {current_.pixels.data(), current_.stamp_ns};
   if (has_current_) return Status::kOk;
   const bool is_wrong = status == Status::kUnsupported;

@@ -33,7 +33,7 @@ class MaskCamera final : public MaskSource {
 
   [[nodiscard]] Status DoNewest(Newest& newest) noexcept override;
 
-  // In the thread.
+  // Runs in the thread.
   void TakeAll() noexcept;
   void TakeOne() noexcept;
   void Report(Status status) noexcept;
@@ -44,12 +44,12 @@ class MaskCamera final : public MaskSource {
   Mask incoming_;
 
   std::mutex mutex_;
-  // Under the mutex.
+  // Guarded by the mutex.
   Mask between_;
   bool is_new_ = false;
-  Status status_ = Status::kNotFound;  ///< Why there is none, if there is none.
+  Status status_ = Status::kNotFound;  ///< Why there is no mask, if there is none.
 
-  Mask current_;  ///< Of who calls Attach().
+  Mask current_;  ///< Of the thread that calls Attach().
   bool has_current_ = false;
   std::atomic<bool> stop_ = false;
   std::thread thread_;
