@@ -3,6 +3,7 @@
 
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <cstring>
 
 #include "program/exit_status.h"
@@ -29,6 +30,7 @@ class Row {
     Finish(std::to_chars(Here(), End(), value));
   }
   void Add(float value) noexcept {
+    if (std::isnan(value)) return Add("nan");  // without the sign that it may have
     Separate();
     Finish(std::to_chars(Here(), End(), value, std::chars_format::general, kSignificantDigits));
   }
