@@ -18,6 +18,7 @@ namespace fs = std::filesystem;
 constexpr std::array<std::string_view, 15> kRequired = {"frame", "timestamp", "x",  "y",  "z",
                                                         "qx",    "qy",        "qz", "qw", "vx",
                                                         "vy",    "vz",        "wx", "wy", "wz"};
+constexpr std::size_t kFirstOfMotion = 2;  // of kRequired: x
 constexpr std::string_view kMillisecondsSuffix = "_ms";
 /// Quaternions are printed with at least three digits; farther from unit length is no rotation.
 constexpr double kQuaternionTolerance = 0.01;
@@ -108,15 +109,19 @@ std::string TextField(const Columns& columns, const std::vector<std::string_view
   return column == columns.by_name.end() ? std::string() : std::string(fields[column->second]);
 }
 
-EstimateRow ParseRow(const fs::path& file, const Line& line, const Columns& columns) {
-  const std::vector<std::string_view> fields = SplitAt(line.text, ',');
-  if (fields.size() != columns.by_name.size()) {
-    throw InputError(file, line.number,
-                     "holds " + std::to_string(fields.size()) + " fields, the header " +
-                         std::to_string(columns.by_name.size()));
-  }
+/// Whether nothing at all is said of the motion.
+bool IsAllNan(const Columns& columns, const std::vector<std::string_view>& fields) {
+  return std::all_of(columns.required.begin() + kFirstOfMotion, columns.required.end(),
+                     [&](std::size_t column) {
+                       const std::optional<double> value = ParseNumber(fields[column]);
+                       return value && std::isnan(*value);
+                     });
+}
+
+void ParseMotion(const fs::path& file, const Line& line, const Columns& columns,
+                 const std::vector<std::string_view>& fields, EstimateRow& row) {
   std::array<double, kRequired.size()> n{};
-  for (std::size_t i = 1; i < kRequired.size(); ++i) {
+  for (std::size_t i = kFirstOfMotion; i < kRequired.size(); ++i) {
     n[i] = ParseFinite(file, line, kRequired[i], fields[columns.required[i]]);
   }
   const EstimatedPose::Quaternion q(n[8], n[5], n[6], n[7]);
@@ -124,13 +129,24 @@ EstimateRow ParseRow(const fs::path& file, const Line& line, const Columns& colu
     throw InputError(file, line.number,
                      "quaternion has length " + std::to_string(q.norm()) + ", 1 is needed");
   }
-  EstimateRow row;
-  row.frame = ParseIndex(file, line, kRequired[0], fields[columns.required[0]]);
-  row.timestamp_s = n[1];
   row.T_co = EstimatedPose(q, Vec3d(n[2], n[3], n[4]));
   row.twist = {Vec3d(n[9], n[10], n[11]), Vec3d(n[12], n[13], n[14])};
+}
+
+EstimateRow ParseRow(const fs::path& file, const Line& line, const Columns& columns) {
+  const std::vector<std::string_view> fields = SplitAt(line.text, ',');
+  if (fields.size() != columns.by_name.size()) {
+    throw InputError(file, line.number,
+                     "holds " + std::to_string(fields.size()) + " fields, the header " +
+                         std::to_string(columns.by_name.size()));
+  }
+  EstimateRow row;
+  row.frame = ParseIndex(file, line, kRequired[0], fields[columns.required[0]]);
+  row.timestamp_s = ParseFinite(file, line, kRequired[1], fields[columns.required[1]]);
   row.status = TextField(columns, fields, "status");
   row.state = TextField(columns, fields, "state");
+  row.has_motion = row.status.empty() || row.status == "ok" || !IsAllNan(columns, fields);
+  if (row.has_motion) ParseMotion(file, line, columns, fields, row);
   row.pose_covariance = ParseCovariance(file, line, fields, columns.pose_covariance);
   row.twist_covariance = ParseCovariance(file, line, fields, columns.twist_covariance);
   for (const std::size_t i : columns.stages) {

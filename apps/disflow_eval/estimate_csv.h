@@ -15,6 +15,7 @@ namespace disflow::apps {
 struct EstimateRow {
   int frame = 0;  ///< Position in the sequence, from 0.
   double timestamp_s = 0.0;
+  bool has_motion = true;  ///< false: the frame was refused, and neither pose nor twist are known.
   EstimatedPose T_co;
   PointTwist twist;                      ///< Of the object frame's origin.
   std::string status;                    ///< Empty if the file has no such column.
@@ -35,7 +36,8 @@ struct EstimateTable {
 };
 
 /// Reads a CSV with the columns frame, timestamp, x..z, qx..qw, vx..vz, wx..wz in any order; others
-/// are optional. Covers empty fields and NaN in optional columns (= not given).
+/// are optional. Covers empty fields and NaN in optional columns (= not given), and NaN
+/// for pose and twist as a whole where the status is not "ok".
 /// @param frame_count Frames of the sequence; a row beyond them is refused.
 /// @throws InputError naming file, line and reason.
 [[nodiscard]] EstimateTable LoadEstimates(const std::filesystem::path& file, int frame_count);

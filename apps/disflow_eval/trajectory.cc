@@ -36,6 +36,7 @@ AlignedTrajectory Align(const GroundTruth& truth, const EstimateTable& estimates
   run.aligned_frame = first->frame;
   run.T_ot = first->T_co.Inverse() * truth.T_ct[static_cast<std::size_t>(first->frame)];
   for (auto row = first; row != estimates.rows.end(); ++row) {
+    if (!row->has_motion) continue;  // and so counts as missing
     const auto k = static_cast<std::size_t>(row->frame);
     AlignedFrame frame;
     frame.row = &*row;

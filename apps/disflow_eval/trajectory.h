@@ -27,7 +27,8 @@ struct AlignedTrajectory {
   std::size_t stamp_mismatches = 0;  ///< Rows whose time since alignment is not the sequence's.
   std::vector<AlignedFrame> frames;  ///< In order; the first is the aligned one.
 
-  /// Frames of the sequence without an estimate: rows that are missing or come before alignment.
+  /// Frames of the sequence without an estimate: rows that are missing, refused or
+  /// before alignment.
   [[nodiscard]] std::size_t missing() const { return frame_count - frames.size(); }
 };
 

@@ -2,6 +2,7 @@
 #include "answer_csv.h"
 
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 
 namespace disflow::apps {
@@ -11,6 +12,12 @@ using hal::mavlink::Odometry;
 
 /// The body's axes (x forward, y right, z down) to the optical ones (x right, y down, z forward).
 Vec3 Optical(float x, float y, float z) { return {y, z, x}; }
+
+/// "ok", or what the numbers are worth: see docs/wire-format.md.
+const char* VerdictOf(const BoardAnswer& answer) {
+  if (answer.odometry.quality != Odometry::kQualityFailed) return "ok";
+  return Name(std::isfinite(answer.odometry.x) ? EstimateKind::kPredicted : EstimateKind::kRefused);
+}
 
 }  // namespace
 
@@ -56,8 +63,7 @@ void AnswerCsv::Add(std::int64_t index, StampNs stamp_ns, const BoardAnswer& ans
   for (const float value : {q.x(), q.y(), q.z(), q.w()}) print(value);
   for (const float value : twist.linear_mps) print(value);
   for (const float value : twist.angular_rps) print(value);
-  const auto status = static_cast<Status>(answer.status.status);
-  (void)std::fprintf(out, ",%s,%s,%d,%d", status == Status::kOk ? "ok" : "predicted",
+  (void)std::fprintf(out, ",%s,%s,%d,%d", VerdictOf(answer),
                      Name(static_cast<TrackingState>(answer.status.state)),
                      int{answer.odometry.quality}, int{answer.odometry.reset_counter});
   for (const std::uint64_t ns : answer.timing.stage_ns) print(static_cast<float>(ns) * 1e-6F);

@@ -143,7 +143,7 @@ bool BoardConnection::Take(const hal::mavlink::FrameView& frame, BoardAnswer& an
   }
   if (DecodePayload(frame, answer.ready) == Status::kOk) return answer.ready.sequence == sequence_;
   if (DecodePayload(frame, answer.status) != Status::kOk) {
-    (void)DecodePayload(frame, answer.timing);  // what is neither is of no interest here
+    (void)DecodePayload(frame, answer.timing);  // other messages are of no interest here
   }
   return false;
 }

@@ -16,7 +16,7 @@ namespace disflow::apps {
 
 /// What a controller said of one frame.
 struct BoardAnswer {
-  bool tracked = false;  ///< ODOMETRY came; false: it had no whole frame to track.
+  bool tracked = false;  ///< ODOMETRY came; false: the board got no whole frame.
   hal::mavlink::Odometry odometry;
   hal::mavlink::DisflowStatus status;
   hal::mavlink::DisflowTiming timing;
@@ -45,11 +45,11 @@ class BoardConnection {
   [[nodiscard]] std::vector<std::vector<std::byte>> NextPackets(const DepthFrame& frame) const {
     return Packets(frame, sequence_ + 1);
   }
-  /// Sends bytes as they are and waits for the answer to the frame that they stand for.
+  /// Sends bytes as they are and waits for the answer to the frame that they make up.
   [[nodiscard]] hal::Fault TrackPackets(const std::vector<std::vector<std::byte>>& packets,
                                         std::int64_t timeout_ns, BoardAnswer& answer);
 
-  /// Waits for the answer to a frame that the controller has by other ways than this line.
+  /// Waits for the answer to a frame that reached the controller by some other way than this line.
   [[nodiscard]] hal::Fault AwaitRecorded(std::uint32_t sequence, std::int64_t timeout_ns,
                                          BoardAnswer& answer);
 

@@ -68,7 +68,7 @@ struct Summary {
       ++lost;
       return;
     }
-    tracked += answer.status.status == 0 ? 1 : 0;
+    tracked += answer.odometry.quality != hal::mavlink::Odometry::kQualityFailed ? 1 : 0;
     frame_ms.push_back(static_cast<double>(answer.timing.frame_ns) * 1e-6);
   }
   void Print() {

@@ -57,7 +57,7 @@ void Firmware::Track(const DepthFrame& frame) noexcept {
 
 void Firmware::SendEstimate(const Estimate& estimate) noexcept {
   Send(encoder_.EncodeOdometry(estimate, message_));
-  // Stamps are the sender's: how old a frame is cannot be told here.
+  // Stamps are on the sender's clock, so the age of a frame is not known here.
   Send(encoder_.EncodeStatus(estimate, {.sensor = source_.counters(), .totals = tracker_.totals()},
                              message_));
 }

@@ -16,13 +16,13 @@
 
 namespace disflow::firmware {
 
-/// Frame in, telemetry out, for ever. All of its memory is its own.
+/// Frame in, telemetry out, for ever. Owns all of its memory.
 class Firmware {
  public:
   Firmware(hal::DepthSensor& source, hal::ByteLink& telemetry, hal::Clock& clock,
            const hal::depth_stream::TimeBudgets& budgets) noexcept;
 
-  /// Waits for a frame for a second at most, tracks it and tells.
+  /// Waits up to a second for a frame, tracks it and sends the estimate.
   void Step() noexcept;
 
  private:

@@ -38,7 +38,7 @@ using Profile = profiles::Micro;
 [[nodiscard]] inline Config FirmwareConfig() noexcept {
   Config config;
   config.sampler.border_px = 1;
-  // Outlines this coarse agree with few of the model's edges, and are needed all the same.
+  // Outlines this coarse agree with few of the model's edges but are needed nevertheless.
   config.registration.edge_agreement = 0.0F;
   return config;
 }

@@ -4,7 +4,9 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "disflow/host/obj_file.h"
@@ -31,31 +33,42 @@ constexpr const char* kFooter =
     "\n"
     "Exit status: 0 done, 2 wrong usage, 3 an input failed, 4 an output failed.";
 
-/// A flag that sets one option of the simulation.
-struct Flag {
-  const char* name;
-  const char* key;
-  const char* help;
+/// What the help says of an option of the simulation beside the values that it takes.
+struct Explanation {
+  std::string_view key;
+  const char* text;
 };
-constexpr std::array kFlags{
-    Flag{"--motion", "motion", "static, moderate, fast, rotate360 or flying [moderate]"},
-    Flag{"--noise", "noise", "clean, d415 or kinect [clean]"},
-    Flag{"--seed", "seed", "Number that all randomness follows from [1]"},
-    Flag{"--frames", "frames", "Images taken, dropped ones included [300]"},
-    Flag{"--fps", "fps", "Images per second [30]"},
-    Flag{"--width", "width", "Image width in pixels [640]"},
-    Flag{"--height", "height", "Image height in pixels [360]"},
-    Flag{"--focal", "focal", "Focal length in pixels [as Fast-YCB's camera at this width]"},
-    Flag{"--occluder", "occluder", "none or arm [none]"},
-    Flag{"--hide", "hide", "Object that is not there from 1 to 2 s, from 1 on [0: none]"},
-    Flag{"--drop", "drop", "Share of images that are lost, 0 to 0.9 [0]"},
-    Flag{"--camera", "camera", "static or moving [static]"},
-    Flag{"--format", "format", "float, or z16 for depth rounded to millimetres [float]"}};
+constexpr std::array kExplanations{
+    Explanation{"motion", "How the object moves [moderate]"},
+    Explanation{"noise", "What the camera adds [clean]"},
+    Explanation{"seed", "Number that all randomness follows from [1]"},
+    Explanation{"frames", "Images taken, dropped ones included [300]"},
+    Explanation{"fps", "Images per second [30]"},
+    Explanation{"width", "Image width in pixels [640]"},
+    Explanation{"height", "Image height in pixels [360]"},
+    Explanation{"focal", "Focal length in pixels [as Fast-YCB's camera at this width]"},
+    Explanation{"occluder", "What passes in front of the object [none]"},
+    Explanation{"support", "What the object stands on [none]"},
+    Explanation{"hide", "Object that is not there from 1 to 2 s, from 1 on [0: none]"},
+    Explanation{"drop", "Share of images that are lost [0]"},
+    Explanation{"camera", "Whether the camera moves [static]"},
+    Explanation{"format", "Depth as float32 metres, or rounded to millimetres [float]"}};
+
+/// Several at once, and so not set like the others.
+constexpr std::string_view kMaskKey = "mask";
+
+std::string HelpOf(const disflow::host::SimulationOptionText& option) {
+  std::string help;
+  for (const Explanation& explanation : kExplanations) {
+    if (explanation.key == option.key) help = std::string(explanation.text) + ": ";
+  }
+  return help + option.allowed;
+}
 
 struct Arguments {
   fs::path out_dir;
   std::string object = "box";
-  std::array<std::string, kFlags.size()> flags;
+  std::map<std::string, std::string> options;  ///< Key and value of what was given.
   std::vector<std::string> mask_sets{"gt"};
   bool force = false;
 };
@@ -68,12 +81,11 @@ int Complain(const Fault& fault, ExitStatus status) {
 Fault MakeOptions(const Arguments& arguments, SimulationOptions& options) {
   const bool is_file = arguments.object.ends_with(".obj") && !arguments.object.starts_with("obj:");
   Fault fault = SetSimulationObject((is_file ? "obj:" : "") + arguments.object, options);
-  for (std::size_t i = 0; i < kFlags.size() && fault.ok(); ++i) {
-    if (arguments.flags[i].empty()) continue;
-    fault = SetSimulationOption(kFlags[i].key, arguments.flags[i], options);
+  for (const auto& [key, value] : arguments.options) {
+    if (fault.ok() && !value.empty()) fault = SetSimulationOption(key, value, options);
   }
   for (const std::string& set : arguments.mask_sets) {
-    if (fault.ok()) fault = SetSimulationOption("mask", set, options);
+    if (fault.ok()) fault = SetSimulationOption(kMaskKey, set, options);
   }
   return fault;
 }
@@ -162,8 +174,10 @@ int main(int argc, char** argv) {
   app.add_option("--object", arguments.object,
                  "box, bottle, can, doughnut or FILE.obj, or several joined by +, the nearest "
                  "first [box]");
-  for (std::size_t i = 0; i < kFlags.size(); ++i) {
-    app.add_option(kFlags[i].name, arguments.flags[i], kFlags[i].help);
+  for (const auto& option : disflow::host::ListSimulationOptions()) {
+    if (option.key == kMaskKey) continue;
+    const std::string key(option.key);
+    app.add_option("--" + key, arguments.options[key], HelpOf(option));
   }
   app.add_option("--mask", arguments.mask_sets, "Mask sets to write: gt, sloppy, none [gt]")
       ->delimiter(',');

@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kQemu = "/usr/bin/qemu-system-arm";
-constexpr int kConnectTries = 500;
+constexpr int kConnectTries = 3000;                    // a minute: the host may be busy
 constexpr std::uint32_t kRecordingMagic = 0x43524644;  // RecordedLine::kMagic
 
 void WriteRecording(const fs::path& file, const std::vector<std::byte>& bytes) {

@@ -14,9 +14,9 @@
 
 #include "answer_csv.h"
 #include "board_connection.h"
+#include "credited_line.h"
 #include "disflow/posix/monotonic_clock.h"
 #include "emulator.h"
-#include "paced_line.h"
 #include "sequence.h"
 
 namespace disflow::firmware_test {
@@ -26,14 +26,11 @@ inline constexpr std::int64_t kPatience_ns = 60'000'000'000;
 /// A board that is told frames over its UART.
 class FedBoard {
  public:
-  /// @param paced false: bytes come faster than any line brings them.
-  explicit FedBoard(const EmulatorOptions& options, bool paced = true)
-      : emulator_(options),
-        paced_(emulator_.uart()),
-        connection_(paced ? static_cast<hal::ByteLink&>(paced_) : emulator_.uart(), clock_) {}
+  explicit FedBoard(const EmulatorOptions& options)
+      : emulator_(options), line_(emulator_.uart()), connection_(line_, clock_) {}
 
   [[nodiscard]] apps::BoardConnection& connection() { return connection_; }
-  [[nodiscard]] hal::ByteLink& uart() { return emulator_.uart(); }
+  [[nodiscard]] CreditedLine& line() { return line_; }
   /// @throws std::runtime_error if the board does not answer.
   apps::BoardAnswer Track(const Frame& frame) {
     apps::BoardAnswer answer;
@@ -53,7 +50,7 @@ class FedBoard {
  private:
   posix::MonotonicClock clock_;
   Emulator emulator_;
-  PacedLine paced_;
+  CreditedLine line_;
   apps::BoardConnection connection_;
 };
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "disflow/geometry/covariance.h"
+
 namespace disflow::apps {
 namespace {
 
@@ -36,15 +38,6 @@ void Fill(const Mat6& covariance, double (&out)[36]) noexcept {
   }
 }
 
-/// A covariance of two vectors in axes a, in axes b.
-Mat6 Turned(const Mat3& R_ba, const Mat6& covariance) noexcept {
-  Mat6 turn = Mat6::Zero();
-  turn.topLeftCorner<3, 3>() = R_ba;
-  turn.bottomRightCorner<3, 3>() = R_ba;
-  const Mat6 half = turn.lazyProduct(covariance);
-  return half.lazyProduct(turn.transpose());
-}
-
 }  // namespace
 
 ros::Time RosTime(std::int64_t ros_ns) noexcept {
@@ -70,7 +63,7 @@ ros::Odometry MakeRosOdometry(const Estimate& estimate, std::int64_t ros_ns,
   const Mat3 R_oc = estimate.T_co.rotation().transpose();
   message.twist.twist = {Make3<ros::Vector3>(R_oc * estimate.twist.linear_mps),
                          Make3<ros::Vector3>(R_oc * estimate.twist.angular_rps)};
-  Fill(Turned(R_oc, estimate.twist_covariance), message.twist.covariance);
+  Fill(RotatedCovariance(estimate.twist_covariance, R_oc), message.twist.covariance);
   return message;
 }
 

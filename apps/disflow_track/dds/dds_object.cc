@@ -58,8 +58,8 @@ void DdsObject::PublishResult(const FrameResult& result) {
   const Estimate& estimate = result.estimate;
   const std::int64_t ros_ns = clock_.ToRos(estimate.stamp_ns);
   counters_.Publish(status_publisher_, status_.Message(result, reader_.lost(), ros_ns, frames_));
-  // A prediction is no measurement: who needs one continues with the twist.
-  if (estimate.status != Status::kOk) return;
+  // These messages cannot say that they hold a prediction; who needs one continues with the twist.
+  if (KindOf(estimate) != EstimateKind::kMeasured) return;
   counters_.Publish(odometry_, MakeRosOdometry(estimate, ros_ns, frames_));
   counters_.Publish(pose_, MakeRosPose(estimate, ros_ns, frames_));
   counters_.Publish(twist_, MakeRosTwist(estimate, ros_ns, frames_));

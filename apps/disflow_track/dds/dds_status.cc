@@ -14,8 +14,8 @@ enum Level : std::uint8_t { kOk = 0, kWarn = 1, kError = 2 };
 
 Level LevelOf(const Estimate& estimate) noexcept {
   if (estimate.state == TrackingState::kLost) return kError;
-  if (estimate.status != Status::kOk || estimate.state == TrackingState::kDegraded) return kWarn;
-  return kOk;
+  const bool measured = KindOf(estimate) == EstimateKind::kMeasured;
+  return measured && estimate.state != TrackingState::kDegraded ? kOk : kWarn;
 }
 
 std::string Text(float value) {
@@ -28,10 +28,11 @@ std::string Text(float value) {
 
 ros::DiagnosticArray DdsStatus::Message(const FrameResult& result, std::uint32_t lost,
                                         std::int64_t ros_ns, const DdsFrames& frames) {
-  const Estimate& estimate = result.estimate;
+  const Estimate estimate = Published(result.estimate);
   message_ = std::string(Name(estimate.state)) + ", " + StatusToken(estimate.status);
   pairs_.clear();
   Add("frame", std::to_string(result.frame));
+  Add("kind", Name(KindOf(estimate)));
   Add("state", Name(estimate.state));
   Add("status", StatusToken(estimate.status));
   Add("quality", std::to_string(estimate.quality));

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <cstring>
 
 #include "program/exit_status.h"
@@ -29,6 +30,7 @@ class Row {
     Finish(std::to_chars(Here(), End(), value));
   }
   void Add(float value) noexcept {
+    if (std::isnan(value)) return Add("nan");  // without the sign that it may have
     Separate();
     Finish(std::to_chars(Here(), End(), value, std::chars_format::general, kSignificantDigits));
   }
@@ -129,7 +131,7 @@ TrajectoryCsv::TrajectoryCsv(const std::string& path, bool timing) : file_(path)
 }
 
 bool TrajectoryCsv::Write(const FrameResult& result) noexcept {
-  const Estimate& estimate = result.estimate;
+  const Estimate estimate = Published(result.estimate);
   const auto milliseconds = [this](std::int64_t ns) {
     return timing_ ? static_cast<float>(static_cast<double>(ns) * 1e-6) : 0.0F;
   };

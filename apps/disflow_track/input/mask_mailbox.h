@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "disflow/hal/saturating.h"
+#include "disflow/saturating.h"
 #include "disflow/posix/mask_source.h"
 #include "disflow/posix/triple_buffer.h"
 

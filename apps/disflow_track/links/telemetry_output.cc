@@ -42,13 +42,9 @@ TelemetryOutput::TelemetryOutput(const Options& options, hal::CameraPoseHistory*
     if (camera_poses != nullptr) {
       line.camera_pose.emplace(PoseSource(options.camera_pose), *camera_poses);
     }
-    const Fault fault = line.link.Configure(uri);
-    if (!fault.ok()) throw Failure(kWrongUsage, fault.message);
+    Require(line.link.Configure(uri), kWrongUsage);
   }
-  for (Line& line : lines_) {
-    const Fault fault = line.link.get()->Open();
-    if (!fault.ok()) throw Failure(kOutputFailed, fault.message);
-  }
+  for (Line& line : lines_) Require(line.link.get()->Open());
 }
 
 TelemetryOutput::~TelemetryOutput() {

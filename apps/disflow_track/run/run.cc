@@ -48,6 +48,17 @@ std::vector<ObjectChannel*> ChannelsOf(const TrackedObjects& objects) {
   return channels;
 }
 
+/// What is known when a frame could not be read: where the tracker stands, and nothing of the
+/// frame, its capture time included.
+Estimate OfUnreadableFrame(const Estimate& last, Status fault) {
+  Estimate estimate;
+  estimate.status = fault;
+  estimate.state = last.state;
+  estimate.stamp_ns = last.stamp_ns;
+  estimate.reset_counter = last.reset_counter;
+  return estimate;
+}
+
 /// A run from its first frame to its last, with all that it reads and writes.
 class TrackingRun {
  public:
@@ -142,9 +153,7 @@ class TrackingRun {
       TrackFrame(turn.counters, pool);
     } else {
       for (FrameResult& result : results_) {
-        // The last pose stands; the row says that it is not of this frame.
-        result.estimate.status = turn.fault;
-        result.estimate.stage_ns.fill(0);
+        result.estimate = OfUnreadableFrame(result.estimate, turn.fault);
         result.total_ns = 0;
       }
     }

@@ -60,7 +60,7 @@ void RunReport::Add(const FrameResult& result) noexcept {
   const Estimate& estimate = result.estimate;
   ++frames_;
   ++by_status_[static_cast<std::size_t>(estimate.status)];
-  if (estimate.status == Status::kOk) ++registered_;
+  if (KindOf(estimate) == EstimateKind::kMeasured) ++registered_;
   total_.Add(result.total_ns);
   totals_ = result.totals;
   sensor_ = result.sensor;

@@ -118,7 +118,7 @@ class Reader {
   }
 
   [[noreturn]] void Refuse(const std::string& what) const {
-    throw Failure(kWrongUsage, Shown(uri_).append(": ").append(what));
+    apps::Refuse(Shown(uri_) + ": ", what);
   }
 
   struct Option {

@@ -45,11 +45,12 @@ std::uint16_t AsWord(float share) {
 }
 
 void AppendDeviations(const Mat6& covariance, ViewBytes& bytes) {
+  // In this order NaN stays NaN.
   for (int i = 0; i < 6; ++i) AppendBytes(std::sqrt(std::max(covariance(i, i), 0.0F)), bytes);
 }
 
 void AppendFrame(const FrameResult& result, ViewBytes& bytes) {
-  const Estimate& estimate = result.estimate;
+  const Estimate estimate = Published(result.estimate);
   AppendBytes(SecondsOf(estimate.stamp_ns), bytes);
   AppendBytes(static_cast<std::uint32_t>(result.frame), bytes);
   AppendBytes(estimate.state, bytes);

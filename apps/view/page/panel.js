@@ -3,7 +3,7 @@
 
 const kDegrees = 180 / Math.PI;
 const byId = (id) => document.getElementById(id);
-const fixed = (values, digits) => values.map((value) => value.toFixed(digits)).join('  ');
+const fixed = (values, digits) => values.map((value) => (Number.isFinite(value) ? value.toFixed(digits) : '–')).join('  ');
 
 function setText(element, text) {
   if (element.textContent !== text) element.textContent = text;

@@ -5,7 +5,9 @@ import { cssColour, lineColours, onThemeChange } from './theme.js';
 const kWindow_s = 30;
 const kDegrees = 180 / Math.PI;
 const norm = (values) => Math.hypot(...values);
-const number = (digits) => (_, value) => (value == null ? '–' : value.toFixed(digits));
+// What a refused frame does not have is a gap in the plot.
+const orGap = (value) => (Number.isFinite(value) ? value : null);
+const number = (digits) => (_, value) => (Number.isFinite(value) ? value.toFixed(digits) : '–');
 
 /** What is drawn of a frame: each line has a name and takes its value from the frame. */
 function plansFor(stages) {
@@ -101,7 +103,7 @@ export class Plots {
       this.base ??= this.frames[0]?.stamp;
       const columns = [this.frames.map((frame) => frame.stamp - this.base)];
       plan.lines.forEach((line, i) => {
-        columns.push(this.frames.map((frame, k) => line.of(frame) + (plan.stacked && i > 0 ? columns[i][k] : 0)));
+        columns.push(this.frames.map((frame, k) => orGap(line.of(frame) + (plan.stacked && i > 0 ? columns[i][k] : 0))));
       });
       plot.setData(columns);
     }

@@ -109,7 +109,10 @@ export class Scene {
     this.object.visible = false;
   }
 
-  addFrames(frames) {
+  /** A refused frame has no pose: the object stays where it is. */
+  addFrames(received) {
+    const frames = received.filter((frame) => frame.position.every(Number.isFinite));
+    if (frames.length === 0) return;
     for (const frame of frames) {
       if (frame.resetCounter !== this.resetCounter) this.trailCount = 0;
       this.resetCounter = frame.resetCounter;

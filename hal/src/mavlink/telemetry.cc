@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "disflow/geometry/covariance.h"
+
 namespace disflow::hal::mavlink {
 namespace {
 
@@ -29,13 +31,7 @@ Covariance RotatedUpperTriangle(const Mat3& rotation, const Mat6& covariance) no
     packed[0] = std::numeric_limits<float>::quiet_NaN();
     return packed;
   }
-  Mat6 rotated;
-  for (const int row : {0, 3}) {
-    for (const int col : {0, 3}) {
-      const Mat3 half = rotation * covariance.block<3, 3>(row, col);
-      rotated.block<3, 3>(row, col) = half * rotation.transpose();
-    }
-  }
+  const Mat6 rotated = RotatedCovariance(covariance, rotation);
   std::size_t next = 0;
   for (int row = 0; row < 6; ++row) {
     for (int col = row; col < 6; ++col) packed[next++] = rotated(row, col);

@@ -28,7 +28,7 @@ class RecordedLine final : public hal::ByteLink {
     return answers_.Send(message);
   }
   Expected<std::size_t> DoReceive(std::span<std::byte> buffer) noexcept override {
-    // An interrupt of the line would count as work on the next frame.
+    // Time spent in the line's interrupts would count as work on the next frame.
     if (!answers_.idle()) return {};
     const auto* const bytes = reinterpret_cast<const volatile std::byte*>(header_ + 2);
     std::size_t size = 0;

@@ -248,14 +248,16 @@ std::vector<std::string> ObjectNames(const SimulationOptions& options) {
   return names;
 }
 
+std::vector<SimulationOptionText> ListSimulationOptions() {
+  std::vector<SimulationOptionText> list;
+  for (const Option& option : kOptions) list.push_back({option.key, option.allowed()});
+  return list;
+}
+
 std::string SimulationOptionsHelp() {
   std::string help;
-  for (const Option& option : kOptions) {
-    help += "                 ";
-    help += option.key;
-    help += "=";
-    help += option.allowed();
-    help += "\n";
+  for (const auto& [key, allowed] : ListSimulationOptions()) {
+    help.append("                 ").append(key).append("=").append(allowed).append("\n");
   }
   return help;
 }

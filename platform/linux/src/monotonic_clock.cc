@@ -23,7 +23,7 @@ void MonotonicClock::DoSleepUntilNs(std::int64_t deadline_ns) noexcept {
   timespec deadline{};
   deadline.tv_sec = static_cast<std::time_t>(deadline_ns / kNsPerS);
   deadline.tv_nsec = static_cast<decltype(deadline.tv_nsec)>(deadline_ns % kNsPerS);
-  // An absolute deadline, so that signals do not stretch the wait.
+  // An absolute deadline, so that signals do not prolong the wait.
   while (::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &deadline, nullptr) == EINTR) {
   }
 }

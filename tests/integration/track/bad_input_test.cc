@@ -30,11 +30,12 @@ class BadInputTest : public ScratchFolderTest {
     return RunTrack({"--sensor", "replay:" + Path("sequence"), "--csv", Path("run.csv")},
                     scratch());
   }
+  [[nodiscard]] std::vector<apps::EstimateRow> Rows() const {
+    return apps::LoadEstimates(Path("run.csv"), kFrames).rows;
+  }
   [[nodiscard]] std::vector<std::string> Statuses() const {
     std::vector<std::string> statuses;
-    for (const auto& row : apps::LoadEstimates(Path("run.csv"), kFrames).rows) {
-      statuses.push_back(row.status);
-    }
+    for (const auto& row : Rows()) statuses.push_back(row.status);
     return statuses;
   }
 };
@@ -67,7 +68,10 @@ TEST_P(DamagedFrame, IsNamedAndTheOthersAreTracked) {
     EXPECT_EQ(statuses[static_cast<std::size_t>(i)], i == kDamagedFrame ? GetParam().status : "ok")
         << "frame " << i << ": " << outcome.err;
   }
-  if (GetParam().exit_status != 0) {
+  const bool is_readable = GetParam().exit_status == 0;
+  EXPECT_EQ(Rows()[kDamagedFrame].has_motion, is_readable)
+      << "that of the frame before is no answer";
+  if (!is_readable) {
     EXPECT_NE(outcome.err.find(std::to_string(kDamagedFrame)), std::string::npos) << outcome.err;
   }
 }
@@ -190,6 +194,7 @@ TEST_F(BadInputTest, StampsThatStandStillOrRunBackwards_AreRefusedFrameByFrame) 
     const bool refused = frame == 4 || frame == 7;
     EXPECT_EQ(statuses[static_cast<std::size_t>(frame)], refused ? "stamp_not_increasing" : "ok")
         << frame;
+    EXPECT_EQ(Rows()[static_cast<std::size_t>(frame)].has_motion, !refused) << frame;
   }
 }
 

@@ -7,18 +7,18 @@
 #include <unistd.h>
 
 #include <array>
-#include <chrono>
 #include <cmath>
+#include <csignal>
 #include <cstdlib>
 #include <limits>
 #include <map>
-#include <thread>
 
 #include "child_process.h"
 #include "disflow/hal/mavlink/frame_decoder.h"
 #include "disflow/hal/mavlink/telemetry.h"
 #include "disflow/posix/file_descriptor.h"
 #include "estimate_csv.h"
+#include "eventually.h"
 #include "scratch_folder.h"
 
 namespace disflow::test {
@@ -82,12 +82,10 @@ class LinkTest : public ScratchFolderTest {};
 
 TEST_F(LinkTest, QuestionAboutTheDistance_IsAnsweredOverUdp) {
   Receiver receiver;
-  Outcome outcome;
-  std::thread run([&] {
-    outcome = RunTrack({"--sensor", "sim:bottle?frames=90", "--rate", "realtime", "--link",
-                        "udp://127.0.0.1:" + receiver.port()},
-                       scratch());
-  });
+  ChildProcess track(DISFLOW_TRACK,
+                     {"--sensor", "sim:bottle?frames=30000", "--rate", "realtime", "--link",
+                      "udp://127.0.0.1:" + receiver.port()},
+                     scratch());
   mavlink::DisflowQuery query;
   query.request = 4711;
   query.target_system = 190;
@@ -97,8 +95,8 @@ TEST_F(LinkTest, QuestionAboutTheDistance_IsAnsweredOverUdp) {
   query.z = {-0.2F, -0.3F, std::numeric_limits<float>::quiet_NaN()};
   mavlink::DisflowField field;
   bool answered = false;
-  // Until the run has ended; asked again with every frame.
-  for (int i = 0; i < 1000 && !answered; ++i) {
+  // Asked again with every frame.
+  EXPECT_TRUE(Eventually([&] {
     bool may_ask = false;
     receiver.Drain([&](const mavlink::FrameView& frame) {
       may_ask = may_ask || frame.message_id == mavlink::Odometry::kId;
@@ -106,9 +104,10 @@ TEST_F(LinkTest, QuestionAboutTheDistance_IsAnsweredOverUdp) {
       answered = mavlink::DecodePayload(frame, field) == Status::kOk;
     });
     if (may_ask && !answered) receiver.Send(query);
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
-  run.join();
+    return answered;
+  }));
+  track.Signal(SIGTERM);
+  const Outcome outcome = track.Wait();
   ASSERT_EQ(outcome.exit_status, 0) << outcome.err;
   ASSERT_TRUE(answered);
   EXPECT_EQ(field.request, 4711U);

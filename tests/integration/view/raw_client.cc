@@ -12,7 +12,7 @@
 namespace disflow {
 namespace {
 
-constexpr int kPatience_ms = 20'000;
+constexpr int kPatience_ms = 60'000;
 
 }  // namespace
 

@@ -26,17 +26,22 @@ constexpr std::string_view kCommand("\x02\x00\x00\x00", 4);
 
 class WebServerTest : public testing::Test {
  protected:
+  static constexpr int kPatient_s = 60;
+  static constexpr int kHurried_s = 1;
+
   WebServerTest() { board_.Put(0, {'h', 'e', 'l', 'l', 'o'}); }
 
-  void Start(const std::string& token = "", int max_connections = 32) {
+  /// @param patience_s How long the server waits for a request to be whole. Short where a test
+  /// waits for its end, and long where a busy machine must not bring it about.
+  void Start(const std::string& token = "", int max_connections = 32, int patience_s = kPatient_s) {
     WebServerOptions options;
     options.token = token;
     options.max_connections = max_connections;
     options.max_viewers = 3;
-    options.request_timeout_s = 1;
-    options.connection_timeout_s = 2;
-    options.ping_after_s = 1;
-    options.hang_up_after_s = 3;
+    options.request_timeout_s = patience_s;
+    options.connection_timeout_s = 2 * patience_s;
+    options.ping_after_s = patience_s;
+    options.hang_up_after_s = 3 * patience_s;
     server_ = std::make_unique<WebServer>(options, kPage, board_, [this](auto) { ++commands_; });
     const hal::Fault fault = server_->Start();
     ASSERT_TRUE(fault.ok()) << fault.message;
@@ -88,7 +93,7 @@ TEST_F(WebServerTest, PathsToFiles_ReachNothing) {
 }
 
 TEST_F(WebServerTest, OtherMethodsAndBodies_AreRefused) {
-  Start();
+  Start("", 32, kHurried_s);
   const std::string host = "Host: localhost:" + std::to_string(port()) + "\r\n";
   for (const char* method :
        {"POST", "PUT", "DELETE", "PATCH", "OPTIONS", "HEAD", "CONNECT", "FOO"}) {
@@ -101,7 +106,7 @@ TEST_F(WebServerTest, OtherMethodsAndBodies_AreRefused) {
 }
 
 TEST_F(WebServerTest, NoHttpAtAll_EndsTheConnection) {
-  Start();
+  Start("", 32, kHurried_s);
   for (const std::string& noise :
        {std::string("\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03", 11), std::string(200, '\0'),
         std::string("\r\n\r\n\r\n"), std::string("GET\r\n\r\n"),
@@ -114,7 +119,7 @@ TEST_F(WebServerTest, NoHttpAtAll_EndsTheConnection) {
 }
 
 TEST_F(WebServerTest, OversizedHeader_EndsTheConnectionUnanswered) {
-  Start();
+  Start("", 32, kHurried_s);
   for (const std::string& header :
        {"X-Long: " + std::string(100'000, 'a') + "\r\n",
         "Cookie: " + std::string(5'000, 'a') + "\r\n", std::string(5'000, 'n') + ": x\r\n"}) {
@@ -125,7 +130,7 @@ TEST_F(WebServerTest, OversizedHeader_EndsTheConnectionUnanswered) {
 }
 
 TEST_F(WebServerTest, EndlessHeaders_EndTheConnection) {
-  Start();
+  Start("", 32, kHurried_s);
   RawClient client(port());
   client.Send("GET / HTTP/1.1\r\n");
   std::string line = "X-One: " + std::string(60, 'b') + "\r\n";
@@ -136,7 +141,7 @@ TEST_F(WebServerTest, EndlessHeaders_EndTheConnection) {
 }
 
 TEST_F(WebServerTest, SlowRequests_AreEndedAndKeepNobodyWaiting) {
-  Start("", 8);
+  Start("", 8, kHurried_s);
   std::vector<std::unique_ptr<RawClient>> slow;
   for (int i = 0; i < 7; ++i) {
     slow.push_back(std::make_unique<RawClient>(port()));
@@ -147,7 +152,7 @@ TEST_F(WebServerTest, SlowRequests_AreEndedAndKeepNobodyWaiting) {
 }
 
 TEST_F(WebServerTest, RequestThatComesByteByByte_IsEndedAsAWhole) {
-  Start();
+  Start("", 32, kHurried_s);
   RawClient client(port());
   const std::string request = "GET / HTTP/1.1\r\nX-Slow: " + std::string(500, 'c');
   std::size_t sent = 0;
@@ -160,7 +165,7 @@ TEST_F(WebServerTest, RequestThatComesByteByByte_IsEndedAsAWhole) {
 }
 
 TEST_F(WebServerTest, ConnectionsBeyondTheLimit_AreClosedUntilOthersEnd) {
-  Start("", 4);
+  Start("", 4, 5);
   std::vector<std::unique_ptr<RawClient>> viewers;
   for (int i = 0; i < 3; ++i) {
     viewers.push_back(std::make_unique<RawClient>(port()));
@@ -297,7 +302,7 @@ TEST_F(WebServerTest, FloodOfCommands_HangsUp) {
 }
 
 TEST_F(WebServerTest, SilentViewer_IsHungUpOnWhileOthersGetTheirMessages) {
-  Start();
+  Start("", 32, 5);
   RawClient silent(port());
   silent.Send(Upgrade(port()));
   ASSERT_EQ(StatusOf(silent.ReadUntil("hello")), 101);

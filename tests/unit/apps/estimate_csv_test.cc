@@ -65,6 +65,16 @@ TEST_F(EstimateCsvTest, OtherOrderExtraColumnsAndCrLf_AreAccepted) {
   EXPECT_FALSE(table.FindStage("none").has_value());
 }
 
+TEST_F(EstimateCsvTest, RefusedFrame_HasNoMotion) {
+  const std::string header = std::string(kHeader) + ",status\n";
+  const std::string nans = ",nan,nan,nan,nan,nan,nan,nan,nan,nan,nan,nan,nan,nan";
+  const EstimateTable table = Load(header + "0,0.5" + nans + ",stamp_not_increasing\n");
+  EXPECT_FALSE(table.rows.at(0).has_motion);
+  EXPECT_EQ(table.rows.at(0).status, "stamp_not_increasing");
+  EXPECT_NE(Refusal(header + "0,0.5" + nans + ",ok\n"), "") << "what is ok has a pose";
+  EXPECT_NE(Refusal(std::string(kHeader) + "\n0,0.5" + nans + "\n"), "");
+}
+
 TEST_F(EstimateCsvTest, CovarianceColumns_BecomeASymmetricMatrix) {
   std::string header = kHeader;
   std::string row = "0";

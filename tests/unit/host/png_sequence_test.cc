@@ -75,6 +75,36 @@ TEST_F(PngSequence, MaskedDepthFolderAndScale_AreUnderstood) {
   EXPECT_EQ(PlayAll(sensor)[0].frame.depth.unit_m, 0.0001F);
 }
 
+/// A folder of nothing but depth images and their camera.
+class LooseImages : public PngSequence {
+ protected:
+  void WriteImage(const std::string& name, std::uint16_t value) const {
+    const std::vector<std::uint16_t> pixels(kWidth_px * kHeight_px, value);
+    ASSERT_TRUE(WriteGray16Png(dir_.path() / name, pixels, kWidth_px, kHeight_px).ok());
+  }
+  void SetUp() override { dir_.Write("camera-intrinsics.txt", "585.5 0 20\n0 586 15\n0 0 1\n"); }
+};
+
+TEST_F(LooseImages, ArePlayedInNaturalOrder) {
+  for (std::uint16_t i = 8; i < 12; ++i) WriteImage("depth_" + std::to_string(i) + ".png", i);
+  ReplaySensor sensor(Replay());
+  const hal::Fault opened = sensor.Open();
+  ASSERT_TRUE(opened.ok()) << opened.message;
+  const std::vector<CopiedFrame> frames = PlayAll(sensor);
+  ASSERT_EQ(frames.size(), 4U);
+  for (int i = 0; i < 4; ++i) EXPECT_EQ(Value(frames[static_cast<std::size_t>(i)]), 8 + i);
+}
+
+TEST_F(LooseImages, OfSeveralKinds_AreRefusedWithAWayOut) {
+  WriteImage("colour_1.png", 1);
+  WriteImage("depth_1.png", 1);
+  ReplaySensor sensor(Replay());
+  const hal::Fault opened = sensor.Open();
+  EXPECT_EQ(opened.status, Status::kUnsupported);
+  EXPECT_NE(std::string(opened.message).find("'colour_*' and 'depth_*'"), std::string::npos)
+      << opened.message;
+}
+
 TEST_F(PngSequence, Poses_AreUsedWhenAskedFor) {
   Write("depth");
   ReplayOptions options = Replay();

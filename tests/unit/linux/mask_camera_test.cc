@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "camera/fake_camera.h"
+#include "eventually.h"
 
 namespace disflow::posix {
 namespace {
@@ -82,11 +83,7 @@ class MaskCameraTest : public testing::Test {
   }
   /// Asks until the answer is as expected; the other thread may not have had its turn yet.
   [[nodiscard]] bool Becomes(Status wanted, std::int64_t stamp_ns) {
-    for (int i = 0; i < 4000; ++i) {
-      if (Attach(stamp_ns) == wanted) return true;
-      ::usleep(1000);
-    }
-    return false;
+    return test::Eventually([&] { return Attach(stamp_ns) == wanted; });
   }
   /// @return The stamp of the mask.
   std::int64_t Shoot(std::uint8_t value) {
@@ -99,12 +96,11 @@ class MaskCameraTest : public testing::Test {
     return stamp_ns;
   }
   void WaitUntilStreaming() {
-    bool streaming = false;
-    for (int i = 0; i < 4000 && !streaming; ++i) {
+    ASSERT_TRUE(test::Eventually([&] {
+      bool streaming = false;
       camera_.With([&](FakeCamera& camera) { streaming = camera.streaming; });
-      ::usleep(1000);
-    }
-    ASSERT_TRUE(streaming);
+      return streaming;
+    }));
   }
 
   std::uint16_t pixels_[kWidth * kHeight] = {};
@@ -119,12 +115,9 @@ TEST_F(MaskCameraTest, NewestMask_BelongsToFramesOfItsTime) {
   WaitUntilStreaming();
   for (std::uint8_t value = 1; value < 10; ++value) {
     const std::int64_t stamp_ns = Shoot(value);
-    bool is_new = false;
-    for (int i = 0; i < 4000 && !is_new; ++i) {
-      is_new = Attach(stamp_ns) == Status::kOk && frame_.mask.row(kHeight - 1)[kWidth - 1] == value;
-      ::usleep(1000);
-    }
-    ASSERT_TRUE(is_new) << int{value};
+    ASSERT_TRUE(test::Eventually([&] {
+      return Attach(stamp_ns) == Status::kOk && frame_.mask.row(kHeight - 1)[kWidth - 1] == value;
+    })) << int{value};
     EXPECT_EQ(frame_.mask.width_px, kWidth);
     EXPECT_EQ(frame_.mask.stride_bytes, kWidth);
     EXPECT_EQ(Attach(stamp_ns + kMaxAge_ns + 1), Status::kTimeout);

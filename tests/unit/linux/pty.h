@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "disflow/posix/file_descriptor.h"
+#include "eventually.h"
 
 namespace disflow::posix::testing {
 
@@ -35,10 +36,10 @@ class Pty {
     return result;
   }
 
-  /// Bytes that have arrived, at most `max`; empty if none arrive within a second.
+  /// Bytes that have arrived, at most `max`; empty if none arrive.
   [[nodiscard]] std::string Read(std::size_t max = 1 << 16) const {
     pollfd waiting{master_.get(), POLLIN, 0};
-    if (::poll(&waiting, 1, 1000) != 1) return {};
+    if (::poll(&waiting, 1, test::kPatience_ms) != 1) return {};
     return ReadNow(max);
   }
   /// Bytes that have arrived by now.

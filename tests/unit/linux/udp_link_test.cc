@@ -11,6 +11,7 @@
 #include <memory>
 
 #include "byte_text.h"
+#include "eventually.h"
 
 namespace disflow::posix::testing {
 namespace {
@@ -30,10 +31,10 @@ class Peer {
 
   [[nodiscard]] std::uint16_t port() const { return ntohs(own_.sin_port); }
 
-  /// One datagram, "(none)" if none comes within a second.
+  /// One datagram, "(none)" if none comes.
   std::string Read() {
     pollfd waiting{socket_.get(), POLLIN, 0};
-    if (::poll(&waiting, 1, 1000) != 1) return "(none)";
+    if (::poll(&waiting, 1, test::kPatience_ms) != 1) return "(none)";
     std::string text(2048, '\0');
     socklen_t size = sizeof(sender_);
     const ssize_t received = ::recvfrom(socket_.get(), text.data(), text.size(), 0,
@@ -199,7 +200,7 @@ TEST(UdpLink, Ipv6Loopback_Works) {
   ASSERT_TRUE(fault.ok()) << fault.message;
   ASSERT_TRUE(link.Send(BytesOf("six")).ok());
   pollfd waiting{peer.get(), POLLIN, 0};
-  ASSERT_EQ(::poll(&waiting, 1, 1000), 1);
+  ASSERT_EQ(::poll(&waiting, 1, test::kPatience_ms), 1);
   char text[8] = {};
   EXPECT_EQ(::recv(peer.get(), text, sizeof(text), 0), 3);
   EXPECT_STREQ(text, "six");

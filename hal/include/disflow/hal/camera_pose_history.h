@@ -22,9 +22,9 @@ class CameraPoseHistory {
 
   struct Settings {
     Transform<Body, Camera> T_bc;  ///< Where the camera sits on the body.
-    /// Neighbours farther apart than this are not interpolated between.
+    /// Poses farther apart than this are not interpolated between.
     std::int64_t max_gap_ns = 250'000'000;
-    /// The motion may be continued beyond the newest pose for so long.
+    /// How far beyond the newest pose the motion may be extrapolated.
     std::int64_t max_ahead_ns = 60'000'000;
   };
 
@@ -34,7 +34,7 @@ class CameraPoseHistory {
     std::uint32_t refused = 0;    ///< Not finite, no rotation, or not newer than the one before.
     std::uint32_t jumps = 0;      ///< The sender's reset counter changed: the past was forgotten.
     std::uint32_t matched = 0;    ///< Stamps for which a pose was found.
-    std::uint32_t continued = 0;  ///< Of these, beyond the newest pose.
+    std::uint32_t continued = 0;  ///< Of these, extrapolated beyond the newest pose.
     std::uint32_t unmatched = 0;  ///< Stamps for which there was none.
   };
 

@@ -8,8 +8,8 @@
 
 namespace disflow::hal {
 
-/// Which moment of a frame its stamp names. What moves in between is seen half an exposure later
-/// than a start of exposure, and a read-out earlier than an end of frame.
+/// Which moment of a frame its stamp refers to. Moving things are imaged half an exposure after the
+/// start of exposure, and one read-out time before the end of the frame.
 enum class StampPoint : std::uint8_t {
   kUnknown,
   kStartOfExposure,
@@ -34,11 +34,11 @@ struct SensorCounters {
   std::uint32_t frames = 0;        ///< Delivered by Next().
   std::uint32_t dropped = 0;       ///< Lost between sensor and Next(): gaps + skipped.
   std::uint32_t gaps = 0;          ///< Missing in the driver's sequence numbers.
-  std::uint32_t skipped = 0;       ///< Left out because a newer frame was there already.
+  std::uint32_t skipped = 0;       ///< Passed over because a newer frame was already there.
   std::uint32_t corrupt = 0;       ///< Thrown away: flagged + short_frames, or a damaged file.
   std::uint32_t flagged = 0;       ///< Marked as erroneous by the driver.
   std::uint32_t short_frames = 0;  ///< Fewer bytes than the image has.
-  std::uint32_t restarts = 0;      ///< Times the stream had stalled or failed and was started anew.
+  std::uint32_t restarts = 0;      ///< Times the stream stalled or failed and was restarted.
   std::uint32_t reconnects = 0;    ///< Times the device went away and came back.
 };
 
@@ -56,8 +56,7 @@ class DepthSensor {
   /// Waits for the next frame. The frame's views stay valid until SensorInfo::held_frames more
   /// calls of Next(), or Close().
   /// @return kOk, kTimeout, kEndOfStream, kDeviceLost (call Open() again), kTruncated or kCorrupt
-  /// (this frame is lost,
-  ///         the next call goes on), kNotOpen.
+  /// (this frame is lost, the next call goes on), kNotOpen.
   [[nodiscard]] Fault Next(std::int64_t timeout_ns, DepthFrame& frame) noexcept {
     return DoNext(timeout_ns, frame);
   }

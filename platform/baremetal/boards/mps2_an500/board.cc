@@ -19,11 +19,18 @@ namespace {
 constexpr std::uint32_t kClockHz = 25'000'000;
 constexpr std::uintptr_t kUart0 = 0x40004000;
 constexpr std::uint32_t kBaud = 921'600;
+// Of the timer, by offset from kTimer0 (CMSDK, DDI 0479, section 4.1).
 constexpr std::uintptr_t kTimer0 = 0x40000000;
+constexpr std::uintptr_t kTimerControl = 0x00;
+constexpr std::uintptr_t kTimerValue = 0x04;
+constexpr std::uintptr_t kTimerReload = 0x08;
+constexpr std::uint32_t kTimerOn = 1;
+constexpr std::uint32_t kTimerFull = 0xFFFFFFFF;
+constexpr unsigned kUart0Receive = 0;  // interrupt; that of the transmitter comes next
 constexpr std::uintptr_t kPsram = 0x60000000;
 
 /// The timer counts down.
-std::uint32_t ReadTicks() noexcept { return ~Register(kTimer0 + 4); }
+std::uint32_t ReadTicks() noexcept { return ~Register(kTimer0 + kTimerValue); }
 
 TickClock<ReadTicks, kClockHz> board_clock;
 CmsdkUart uart(kUart0, kClockHz, kBaud);
@@ -41,11 +48,11 @@ DISFLOW_BOARD_VECTORS const Vector kBoardVectors[] = {OnUartReceive, OnUartTrans
 }  // namespace
 
 void StartBoard() noexcept {
-  Register(kTimer0 + 8) = 0xFFFFFFFF;  // reload
-  Register(kTimer0 + 4) = 0xFFFFFFFF;
-  Register(kTimer0) = 1;
-  EnableInterrupt(0);
-  EnableInterrupt(1);
+  Register(kTimer0 + kTimerReload) = kTimerFull;
+  Register(kTimer0 + kTimerValue) = kTimerFull;
+  Register(kTimer0 + kTimerControl) = kTimerOn;
+  EnableInterrupt(kUart0Receive);
+  EnableInterrupt(kUart0Receive + 1);
 }
 
 hal::ByteLink& BoardUart() noexcept { return uart; }

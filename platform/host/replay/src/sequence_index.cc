@@ -44,16 +44,31 @@ bool ParseIndex(std::string_view text, std::uint64_t& index) {
   return error == std::errc{} && next == end;
 }
 
+/// Images that lie in the folder itself. Colour and depth side by side differ in their names.
+hal::Fault ListLooseImages(const fs::path& dir, std::vector<NumberedFile>& files) {
+  const hal::Fault fault = ListNumberedFiles(dir, kImageExtension, files);
+  if (!fault.ok() || files.empty()) return fault;
+  for (const NumberedFile& file : files) {
+    if (file.prefix == files.front().prefix) continue;
+    return hal::MakeFault(Status::kUnsupported,
+                          "%s: holds images of several kinds, '%s*' and '%s*'; put the depth "
+                          "images into a folder depth",
+                          dir.c_str(), files.front().prefix.c_str(), file.prefix.c_str());
+  }
+  return {};
+}
+
 hal::Fault ListDepth(const fs::path& dir, SequenceIndex& index, std::vector<NumberedFile>& files) {
   hal::Fault fault = ListNumberedFiles(dir / kDepthFolder, kDepthExtension, files);
   index.float_depth = !files.empty();
   for (const char* folder : {kDepthFolder, kMaskedDepthFolder}) {
-    if (!fault.ok() || !files.empty()) break;
+    if (!fault.ok() || !files.empty()) return fault;
     fault = ListNumberedFiles(dir / folder, kImageExtension, files);
   }
+  if (fault.ok() && files.empty()) fault = ListLooseImages(dir, files);
   if (!fault.ok() || !files.empty()) return fault;
   return hal::MakeFault(Status::kNotFound,
-                        "%s: holds no depth/*.float, depth/*.png or masked_depth/*.png",
+                        "%s: holds no depth/*.float, depth/*.png, masked_depth/*.png or *.png",
                         dir.c_str());
 }
 

@@ -31,7 +31,7 @@ std::string Configuration(const DdsNetwork& network) {
         .append("\"/></Interfaces></General>");
   }
   if (!network.peers.empty()) {
-    // Of a numbered participant the peers can guess the port.
+    // The peers can guess the port of a numbered participant.
     text += "<Discovery><ParticipantIndex>auto</ParticipantIndex><Peers>";
     for (const std::string& peer : network.peers) text += "<Peer address=\"" + peer + "\"/>";
     text += "</Peers></Discovery>";

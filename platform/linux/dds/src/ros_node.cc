@@ -63,7 +63,7 @@ hal::Fault RosNode::AddReader(const Endpoint& endpoint, dds_entity_t& reader) {
 
 std::string RosNode::ParticipantId() const {
   dds_guid_t guid{};
-  (void)dds_get_guid(participant_, &guid);  // zeros are as good a text
+  (void)dds_get_guid(participant_, &guid);  // zeros would do as well
   std::string text;
   for (const std::uint8_t byte : guid.v) {
     char digits[3];

@@ -168,7 +168,7 @@ Fault LibcameraSensor::DoNext(std::int64_t timeout_ns, DepthFrame& frame) noexce
     return MakeFault(Status::kTimeout, "%s: no frame came in time", state.name.c_str());
   }
   Fault fault = state.Judge(*newest);
-  // Older frames give way to newer ones, damaged ones to all.
+  // Older frames give way to newer ones, and damaged ones to any.
   while (libcamera::Request* const next = state.session.Take(0)) {
     const Fault judged = state.Judge(*next);
     libcamera::Request* const surplus = judged.ok() || !fault.ok() ? newest : next;

@@ -49,7 +49,7 @@ class SequenceCheck {
   void Restart() noexcept { started_ = false; }
 
  private:
-  // More is no gap but a counter that jumped.
+  // More than that is not a gap but a counter that jumped.
   static constexpr std::uint32_t kMostMissing = 1U << 20U;
   // No more can be under way than there are buffers.
   static constexpr std::uint32_t kMostBehind = 8;

@@ -106,7 +106,7 @@ void V4l2Buffers::Release() noexcept {
 int V4l2Buffers::Dequeue(v4l2_buffer& buffer) noexcept {
   buffer = Describe(0);
   if (kernel_.Ioctl(fd_, VIDIOC_DQBUF, &buffer) != 0) return errno;
-  // An index from nowhere must not lead out of the table.
+  // A bogus index must not reach beyond the table.
   return buffer.index < count_ ? 0 : EIO;
 }
 

@@ -112,7 +112,7 @@ Fault V4l2Stream::Next(std::int64_t timeout_ns, DepthFrame& frame) noexcept {
 Fault V4l2Stream::TakeNewest(v4l2_buffer& newest) noexcept {
   Fault verdict = MakeFault(Status::kWouldBlock, "%s: nothing there", name_.c_str());
   bool have_one = false;
-  // A driver that is always faster than this must not keep it here for ever.
+  // A driver that is always faster than this loop must not keep it here for ever.
   for (std::uint32_t i = 0; i < V4l2Buffers::kMost; ++i) {
     v4l2_buffer buffer;
     const int error = buffers_.Dequeue(buffer);

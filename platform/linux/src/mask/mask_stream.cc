@@ -91,7 +91,7 @@ MaskStream::Reading MaskStream::ReadNewest() noexcept {
   for (int i = 0; i < kAttempts && reading == Reading::kTorn; ++i) reading = ReadOnce();
   if (reading != Reading::kTorn || sequence_ == 0) return reading;
   AddSaturating(counters_.torn);
-  // The one before is whole; whether it is still of use its stamp decides.
+  // The previous mask is whole; its stamp decides whether it is still of use.
   return Reading::kUnchanged;
 }
 

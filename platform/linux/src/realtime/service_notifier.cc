@@ -65,7 +65,7 @@ void ServiceNotifier::Beat(std::int64_t now_ns) noexcept {
 
 void ServiceNotifier::Send(std::string_view message) noexcept {
   if (!active()) return;
-  // A manager that does not read loses the message; the next one says the same again.
+  // If the manager does not read, the message is lost; the next one says the same again.
   (void)::sendto(socket_.get(), message.data(), message.size(), MSG_NOSIGNAL,
                  reinterpret_cast<const sockaddr*>(&peer_), peer_size_);
 }

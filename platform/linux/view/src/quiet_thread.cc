@@ -17,7 +17,8 @@ std::thread StartQuietThread(std::function<void()> work) {
   (void)pthread_sigmask(SIG_SETMASK, &all, &before);
   std::thread thread([work = std::move(work)] {
     constexpr int kNiceness = 10;
-    // On Linux of this thread alone. If it is refused, the thread competes as any other.
+    // On Linux this is of the calling thread alone. If it is refused, the thread competes like any
+    // other.
     (void)setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNiceness);
     work();
   });

@@ -64,7 +64,7 @@ hal::Fault WebService::Open() {
   info.headers = SecurityHeaders();
   info.server_string = "disflow";
   info.max_http_header_data = kHeaderBytes;
-  // Everybody has room for a request: one that comes slowly keeps nobody else waiting.
+  // Each connection has a buffer for its request: a slow one keeps nobody else waiting.
   info.max_http_header_pool = static_cast<unsigned short>(connections);
   info.timeout_secs = static_cast<unsigned>(options_.request_timeout_s);
   info.timeout_secs_ah_idle = info.timeout_secs;

@@ -133,11 +133,12 @@ TEST_F(ObjectChannelTest, Picture_ShowsTheDepthAndTheObjectsPixels) {
 
 TEST_F(ObjectChannelTest, ReaderInAThreadOfItsOwn_IsWokenAndNeverSeesAHalfCopy) {
   ChannelReader& reader = channel_.AddReader(signal_);
-  constexpr std::int64_t kLong_ns = 20'000'000'000;
+  constexpr std::int64_t kLong_ns = 60'000'000'000;
   std::int64_t last = -1;
   int snapshots = 0;
+  // Asked for before there are frames: all of them may be over when the listener gets its first turn.
+  reader.RequestSnapshot();
   std::thread listener([&] {
-    reader.RequestSnapshot();
     FrameResult result;
     while (last < 29 && signal_.WaitFor(kLong_ns)) {
       while (reader.Pop(result)) last = result.frame;

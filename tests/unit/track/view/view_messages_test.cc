@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <limits>
 
@@ -59,6 +60,19 @@ TEST(ViewMessages, Frames_StandWhereTheDocumentSays) {
   EXPECT_EQ(At<float>(bytes, at + 140), 2.5F);
   EXPECT_EQ(At<std::uint16_t>(bytes, at + 146), 300);
   EXPECT_EQ(At<float>(bytes, at + 156), 0.001F);
+}
+
+TEST(ViewMessages, RefusedFrame_HasNeitherPoseNorDeviations) {
+  FrameResult result;
+  result.estimate.status = Status::kStampNotIncreasing;
+  result.estimate.quality = 42;
+  result.estimate.pose_covariance = Mat6::Identity();
+  const ViewBytes bytes = EncodeFrames(0, {&result, 1});
+  EXPECT_EQ(At<std::uint8_t>(bytes, 8 + 13), 9);
+  EXPECT_EQ(At<std::uint8_t>(bytes, 8 + 14), 0);
+  for (std::size_t at = 16; at < 116; at += sizeof(float)) {
+    EXPECT_TRUE(std::isnan(At<float>(bytes, 8 + at))) << "at " << at;
+  }
 }
 
 TEST(ViewMessages, Surface_KeepsPlacesToATenThousandthOfItsSize) {

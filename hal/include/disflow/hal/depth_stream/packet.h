@@ -14,8 +14,8 @@
 /// means: docs/firmware.md.
 ///
 /// A frame is cut into packets. Each is checked by a CRC-32 and coded without zero bytes (COBS,
-/// Cheshire and Baker 1999), so that a zero always ends a packet: after garbage the receiver is in
-/// step again at the next packet.
+/// Cheshire and Baker 1999), so that a zero always ends a packet: after garbage the receiver is
+/// back in step at the next packet.
 
 namespace disflow::hal::depth_stream {
 
@@ -36,10 +36,10 @@ struct FrameStart {
   PinholeCamera camera;
 };
 
-/// How long the work on a frame may take; 0 = as long as it likes.
+/// How long the work on a frame may take; 0 = no limit.
 struct TimeBudgets {
-  std::uint32_t frame_us = 0;  ///< Beyond, the controller starts anew.
-  std::uint32_t stage_us = 0;  ///< Beyond, a stage is counted as late.
+  std::uint32_t frame_us = 0;  ///< Beyond it the controller restarts.
+  std::uint32_t stage_us = 0;  ///< Beyond it a stage is counted as late.
 };
 
 inline constexpr std::size_t kMaxPixelsPerPacket = 128;
@@ -47,11 +47,11 @@ inline constexpr std::size_t kHeaderSize = 5;  ///< Type and sequence number.
 inline constexpr std::size_t kCrcSize = 4;
 /// Three bytes per pixel at worst.
 inline constexpr std::size_t kMaxPacketSize = kHeaderSize + 4 + 3 * kMaxPixelsPerPacket + kCrcSize;
-/// Coded: a byte in 254 more, a delimiter before and one behind.
+/// Encoded: one byte more per 254, and a delimiter at either end.
 inline constexpr std::size_t kMaxEncodedSize = kMaxPacketSize + kMaxPacketSize / 254 + 1 + 2;
 using EncodedPacket = std::array<std::byte, kMaxEncodedSize>;
 
-/// A packet whose checksum was right.
+/// A packet whose checksum was correct.
 struct PacketView {
   PacketType type = PacketType::kPoll;
   std::uint32_t sequence = 0;  ///< Grows with every frame and every poll; frames keep theirs.

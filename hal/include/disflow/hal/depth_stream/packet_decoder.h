@@ -9,10 +9,10 @@
 
 namespace disflow::hal::depth_stream {
 
-/// What the decoder met; saturating.
+/// What the decoder has come across; saturating.
 struct PacketCounters {
-  std::uint32_t packets = 0;  ///< With a right checksum.
-  std::uint32_t corrupt = 0;  ///< Too long, too short, wrongly coded or with a wrong checksum.
+  std::uint32_t packets = 0;  ///< With a correct checksum.
+  std::uint32_t corrupt = 0;  ///< Too long, too short, badly encoded or with a wrong checksum.
 };
 
 /// Finds the packets in a stream of bytes that may start anywhere and contain anything. Fixed

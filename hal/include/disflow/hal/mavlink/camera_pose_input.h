@@ -20,11 +20,11 @@ struct CameraPoseSource {
   bool own_clock = false;
 };
 
-/// What was met besides usable poses; saturating.
+/// What came in besides usable poses; saturating.
 struct CameraPoseInputCounters {
-  std::uint32_t other_system = 0;  ///< ODOMETRY of somebody else.
-  std::uint32_t other_frame = 0;   ///< In another world frame than the wanted one.
-  std::uint32_t failed = 0;        ///< The sender says that its estimate failed.
+  std::uint32_t other_system = 0;  ///< ODOMETRY from another system.
+  std::uint32_t other_frame = 0;   ///< In a world frame other than the one wanted.
+  std::uint32_t failed = 0;        ///< The sender reported that its estimate failed.
 };
 
 /// Reads the bytes of one link and puts the carrier's ODOMETRY into a history.

@@ -15,8 +15,8 @@
 
 namespace disflow::hal::mavlink {
 
-/// Reads the bytes of one link and keeps the questions until somebody answers them. Few find room:
-/// answering is bounded work between two frames.
+/// Reads the bytes of one link and keeps the questions until they are answered. There is room for
+/// few: answering is bounded work between two frames.
 class DistanceQueryInput {
  public:
   static constexpr int kMaxWaiting = 4;
@@ -32,7 +32,7 @@ class DistanceQueryInput {
     return waiting_;
   }
   void Clear() noexcept { waiting_.clear(); }
-  /// Questions without room or without sense; saturating.
+  /// Questions that found no room or made no sense; saturating.
   [[nodiscard]] std::uint32_t refused() const noexcept { return refused_; }
 
  private:

@@ -10,9 +10,9 @@
 
 namespace disflow::hal::mavlink {
 
-/// What the decoder met; saturating.
+/// What the decoder has come across; saturating.
 struct DecoderCounters {
-  std::uint32_t frames = 0;             ///< Complete, with a right checksum.
+  std::uint32_t frames = 0;             ///< Complete, with a correct checksum.
   std::uint32_t bad_checksum = 0;       ///< Known message, wrong checksum.
   std::uint32_t unknown_id = 0;         ///< Headers of messages that DisFlow does not know.
   std::uint32_t unsupported_flags = 0;  ///< Headers with incompatibility flags other than "signed".
@@ -22,8 +22,8 @@ struct DecoderCounters {
 /// Finds the MAVLink 2 frames of known messages in a stream of bytes that may start anywhere and
 /// contain anything.
 ///
-/// After a header that turns out to be none, the search goes on at the very next byte, so that
-/// garbage never costs a whole frame that follows it. Fixed memory; not thread-safe.
+/// When a presumed header turns out not to be one, the search resumes at the very next byte, so
+/// that garbage never costs the frame that follows it. Fixed memory; not thread-safe.
 ///
 /// @code
 /// while (!bytes.empty()) {

@@ -24,7 +24,7 @@ enum class MavFrame : std::uint8_t {
   kLocalFlu = 21,
 };
 
-/// Marks fields that came into a message after its first release: they do not count in CRC_EXTRA.
+/// Extension fields were added to a message after its first release and do not count in CRC_EXTRA.
 enum class FieldKind : std::uint8_t { kBase, kExtension };
 
 /// HEARTBEAT (#0).
@@ -184,8 +184,8 @@ struct DisflowReady {
   std::uint32_t frames = 0;           ///< Whole frames handed to the tracker.
   std::uint32_t frames_lost = 0;      ///< Begun, but not received whole.
   std::uint32_t frames_refused = 0;   ///< Larger than the memory for them, or without intrinsics.
-  std::uint32_t packets = 0;          ///< With a right checksum.
-  std::uint32_t packets_corrupt = 0;  ///< Garbage between delimiters, whatever it was.
+  std::uint32_t packets = 0;          ///< With a correct checksum.
+  std::uint32_t packets_corrupt = 0;  ///< What lay between two delimiters was no valid packet.
   std::uint32_t bytes_lost = 0;       ///< Arrived while the receive buffer was full.
 
   template <class Self, class Visitor>
@@ -211,7 +211,7 @@ struct DisflowTiming {
   std::array<std::uint64_t, kStages> stage_ns{};  ///< In the order of disflow::Stage.
   std::uint32_t stages_late = 0;                  ///< Stages beyond their budget, since the start.
   std::uint32_t restarts = 0;                     ///< By the watchdog or a fault, since power-on.
-  std::uint32_t stack_bytes = 0;                  ///< Most that the stack has ever held.
+  std::uint32_t stack_bytes = 0;                  ///< High-water mark of the stack.
 
   template <class Self, class Visitor>
   static constexpr void VisitFields(Self& message, Visitor& field) {

@@ -37,7 +37,7 @@ class ByteRing {
   }
 
  private:
-  // Counted without end, so that a full ring and an empty one differ.
+  // They count on without wrapping at the capacity, so that a full ring differs from an empty one.
   std::atomic<std::uint32_t> begin_{0};
   std::atomic<std::uint32_t> end_{0};
   std::array<std::byte, kCapacity> bytes_{};

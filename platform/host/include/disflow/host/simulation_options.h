@@ -97,6 +97,13 @@ struct SimulationOptions {
 /// All objects, the nearest first.
 [[nodiscard]] std::vector<SimulatedShape> ObjectShapes(const SimulationOptions& options);
 
+/// What people are told of an option.
+struct SimulationOptionText {
+  std::string_view key;
+  std::string allowed;  ///< Values, or their range.
+};
+/// @return Every option that SetSimulationOption() takes.
+[[nodiscard]] std::vector<SimulationOptionText> ListSimulationOptions();
 /// The keys with their allowed values, one per line.
 [[nodiscard]] std::string SimulationOptionsHelp();
 

@@ -16,9 +16,9 @@ struct MaskCounters {
   std::uint32_t used = 0;
   std::uint32_t missing = 0;     ///< No source there, or nothing delivered yet.
   std::uint32_t late = 0;        ///< Too old or too new for the frame; also of a dead source.
-  std::uint32_t torn = 0;        ///< Written to all the while it was read.
-  std::uint32_t wrong_size = 0;  ///< Not as large as the depth image.
-  std::uint32_t corrupt = 0;     ///< Without sense, or fewer bytes than there should be.
+  std::uint32_t torn = 0;        ///< Being written every time it was read.
+  std::uint32_t wrong_size = 0;  ///< Of another size than the depth image.
+  std::uint32_t corrupt = 0;     ///< Header makes no sense, or bytes are missing.
 };
 
 /// Masks that somebody else makes: 8 bits per pixel, as large as the depth image. docs/masks.md.

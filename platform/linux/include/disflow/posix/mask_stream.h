@@ -24,7 +24,7 @@ struct MaskHeader {
   std::uint32_t height_px = 0;
   std::uint32_t stride_bytes = 0;
 
-  /// @return false if the magic, the sizes or the stride cannot be.
+  /// @return false if the magic, the sizes or the stride are impossible.
   [[nodiscard]] bool Parse(std::span<const std::byte, kSize> bytes) noexcept;
 };
 

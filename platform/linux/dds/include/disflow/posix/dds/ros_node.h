@@ -39,7 +39,8 @@ class RosPublisher {
   [[nodiscard]] bool Publish(const Message& message) noexcept {
     return dds_write(writer_, &message) >= 0;
   }
-  /// @return true if somebody listens, so that large messages are made only when they are wanted.
+  /// @return true if there is a listener, so that large messages are made only when they are
+  /// wanted.
   [[nodiscard]] bool HasListeners() const noexcept { return posix::HasListeners(writer_); }
 
  private:
@@ -83,7 +84,7 @@ class RosService {
   RosService(dds_entity_t reader, dds_entity_t writer) noexcept
       : requests(reader), reader_(reader), writer_(writer) {}
 
-  /// @param response With the request's header. What cannot be sent is missed by the client alone.
+  /// @param response With the request's header. If it cannot be sent, only the client misses it.
   void Reply(const Response& response) noexcept {
     AwaitReplyReaders(reader_, writer_);
     (void)dds_write(writer_, &response);

@@ -29,8 +29,8 @@ struct WebServerOptions {
   int request_timeout_s = 5;  ///< For a whole request, and for one that follows on a connection.
   /// For a connection that is no viewer's, whatever it does.
   int connection_timeout_s = 60;
-  int ping_after_s = 5;      ///< A viewer that is silent for so long is asked whether it lives,
-  int hang_up_after_s = 15;  ///< and is hung up on.
+  int ping_after_s = 5;      ///< A viewer that has been silent for this long is pinged,
+  int hang_up_after_s = 15;  ///< and for this long is hung up on.
 };
 
 /// Serves a page that is held in memory, and gives every browser that has it open the messages of a
@@ -42,7 +42,7 @@ class WebServer {
   /// Name of the WebSocket protocol; it is offered at kSocketPath.
   static constexpr const char* kProtocol = "disflow.v1";
   static constexpr const char* kSocketPath = "/live";
-  /// A message from a browser has exactly so many bytes.
+  /// A message from a browser has exactly this many bytes.
   static constexpr std::size_t kCommandBytes = 4;
 
   /// Called by the server's thread.
