@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# What the programs for Linux can do. All of it is on with the programs and off without them; who wants it otherwise says
-# so, e.g. -DDISFLOW_WITH_LIBCAMERA=OFF. (No options: a default must follow DISFLOW_BUILD_APPS in the next configuration.)
+# What the programs for Linux can do. All of it is on if the programs are built and off otherwise, unless set by
+# name, e.g. -DDISFLOW_WITH_LIBCAMERA=OFF. (Not option(): the default must follow DISFLOW_BUILD_APPS when that changes.)
 #   DISFLOW_WITH_LIBCAMERA  cameras of libcamera (--sensor libcamera:)
 #   DISFLOW_WITH_DDS        ROS 2 over DDS (--link dds:)
 #   DISFLOW_WITH_VIEW       the live view (--view)
@@ -9,7 +9,7 @@ if(DISFLOW_BUILD_APPS AND CMAKE_SYSTEM_NAME STREQUAL "Linux")
   set(disflow_has_programs ON)
 endif()
 if(DISFLOW_BUILD_APPS OR DISFLOW_BUILD_FUZZERS)
-  set(DISFLOW_BUILD_PLATFORM ON)  # they stand on it, as do the features
+  set(DISFLOW_BUILD_PLATFORM ON)  # they are built on it, as are the features
 endif()
 foreach(feature LIBCAMERA DDS VIEW)
   if(NOT DEFINED DISFLOW_WITH_${feature})

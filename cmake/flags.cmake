@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Flags of this project's own targets. Processor flags (-march and the like) belong into toolchain files and presets.
+# Flags of this project's own targets. Processor flags (-march and the like) belong in toolchain files and presets.
 
 add_library(disflow_warnings INTERFACE)
 target_compile_options(disflow_warnings INTERFACE
   -Wall -Wextra -Wconversion -Wshadow -Wdouble-promotion)
-# Whoever takes this project in may compile it with another compiler and with flags of their own; a warning more is no
-# reason to fail them. gcc's sanitizers make it warn of what is not there.
+# Whoever takes this project in may compile it with another compiler and with flags of their own; one more warning must
+# not fail their build. With sanitizers on, gcc warns about problems that do not exist.
 if(DISFLOW_WARNINGS_AS_ERRORS AND NOT (DISFLOW_SANITIZED AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU"))
   target_compile_options(disflow_warnings INTERFACE -Werror)
 endif()

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Installs a package of this project into an empty root and runs it there: packaging/try.sh PACKAGE.deb
-# Packages of another processor are unpacked only, and run under qemu-user.
+# Packages for another processor are only unpacked, and run under qemu-user.
 set -euo pipefail
 package="$(realpath "$1")"
 architecture="$(dpkg-deb -f "$package" Architecture)"
@@ -16,7 +16,7 @@ for file in ./usr/bin/disflow_track ./etc/disflow/track.toml ./lib/systemd/syste
 done
 [[ "$(dpkg-deb -f "$package" Depends)" == *libc6* ]] || die "$package has no dependencies"
 
-# What the package for each processor is to have; what the ARM presets leave out and why is in docs/deploy.md.
+# What the package for each processor must have; docs/deploy.md says what the ARM presets leave out and why.
 features() {
   case "$architecture" in
     arm64) echo "v4l2 libcamera serial udp mavlink dds" ;;
@@ -39,7 +39,7 @@ try_track() {
 
 if [ "$architecture" = "$(dpkg --print-architecture)" ] && [ "$(id -u)" -eq 0 ] && command -v mmdebstrap >/dev/null; then
   suite="$(sed -n 's/^VERSION_CODENAME=//p' /etc/os-release)"
-  # What the package says that it needs, and nothing else.
+  # What the package says it needs, and nothing else.
   needed="$(dpkg-deb -f "$package" Depends | tr ',' '\n' | awk '{print $1}' | paste -s -d ,)"
   mmdebstrap --quiet --variant=essential --include="$needed" "$suite" "$root/clean" >/dev/null 2>"$root/log" || {
     tail -n 20 "$root/log" >&2

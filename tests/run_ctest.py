@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs the tests of a build, once or many times, and says at the end what failed and what was skipped for want of what.
+"""Runs the tests of a build, once or many times, and says at the end what failed, what was skipped and why.
 
     tests/run_ctest.py --build build/release [--repeat N] [--busy] [-- CTEST_OPTION...]
 
@@ -96,7 +96,6 @@ def run_once(build, options, log):
     """The status of CTest and what its JUnit file says; None if it could not even begin."""
     with tempfile.TemporaryDirectory() as folder:
         report = os.path.join(folder, "report.xml")
-        # As a program sees it that runs in the build's folder.
         command = ["ctest", "--test-dir", build, "--output-on-failure", "--no-tests=error", "--output-junit", report,
                    "--test-output-size-passed", "8192", "--parallel", str(os.cpu_count()), *options]
         if log:

@@ -4,7 +4,7 @@ set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR armv7l)
 set(CMAKE_C_COMPILER arm-linux-gnueabihf-gcc)
 set(CMAKE_CXX_COMPILER arm-linux-gnueabihf-g++)
-# Files may be larger than 2 GiB. -Wrestrict of GCC 12 finds overlaps in std::string that there are not.
+# Files may be larger than 2 GiB. GCC 12's -Wrestrict reports overlaps in std::string that do not exist.
 set(CMAKE_CXX_FLAGS_INIT "-march=armv7-a+neon-vfpv4 -D_FILE_OFFSET_BITS=64 -Wno-psabi -Wno-restrict")
 set(CMAKE_CROSSCOMPILING_EMULATOR qemu-arm -L /usr/arm-linux-gnueabihf)
 set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)

@@ -8,7 +8,7 @@ import sys
 # Freestanding by the standard (C++20, [compliance]).
 FREESTANDING = {'atomic', 'bit', 'cfloat', 'climits', 'compare', 'concepts', 'cstdarg', 'cstddef', 'cstdint', 'initializer_list',
                 'limits', 'new', 'source_location', 'type_traits', 'version'}
-# Not so by the standard, but of what is used of them nothing needs a heap, exceptions or a system.
+# Not freestanding by the standard, but what is used of them needs neither heap, exceptions nor an operating system.
 TEMPLATES = {'algorithm', 'array', 'cassert', 'cmath', 'cstring', 'iterator', 'span', 'string_view', 'utility'}
 EIGEN = {'Eigen/Cholesky', 'Eigen/Core', 'Eigen/Eigenvalues', 'Eigen/Geometry', 'Eigen/Jacobi'}
 ALLOWED = {

@@ -17,12 +17,12 @@ import sys
 FORBIDDEN = re.compile(
     r'^(malloc|calloc|realloc|free|_malloc_r|_free_r|_realloc_r|_calloc_r|_sbrk|_sbrk_r|sbrk|'
     r'_Zn[wa]\w*|_Zd[la]\w*|__cxa_\w+|_Unwind_\w+|__gxx_\w+|\w*printf\w*|abort|exit|atexit|__aeabi_atexit)$')
-# Double precision by software: arithmetic, comparisons and conversions.
+# Double precision in software: arithmetic, comparisons and conversions.
 DOUBLE = re.compile(r'^__aeabi_(d\w+|cd\w+|f2d|i2d|ui2d|l2d|ul2d)$')
 # Checks the settings once, when the tracker is made.
 MAY_USE_DOUBLE = re.compile(r'^(void )?disflow::(Validate\(|.*VisitFields<.*Validate\()')
 
-# Whom calls through pointers can reach, by caller; first match counts. Vtables and the clock lent to the tracker.
+# What calls through pointers can reach, by caller; the first match counts. Vtables and the clock lent to the tracker.
 INDIRECT = [
     (r'disflow::firmware::Firmware::', r'disflow::hal::depth_stream::StreamSensor::Do|disflow::baremetal::CmsdkUart::Do'
      r'|disflow::baremetal::TickClock<.*>::Do'),
@@ -58,7 +58,7 @@ class Function:
 
 
 def read_disassembly(image):
-    """Every function of the image with whom it calls; frame sizes as far as prologues tell them."""
+    """Every function of the image with the functions it calls; frame sizes as far as prologues show them."""
     functions = {}
     current = None
     for line in run('arm-none-eabi-objdump', '-d', '--no-show-raw-insn', image).splitlines():

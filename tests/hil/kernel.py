@@ -10,7 +10,7 @@ _XZ_MAGIC = b"\xfd7zXZ\0"
 
 
 class Unavailable(Exception):
-    """Something that the tests need cannot be had here; they are skipped."""
+    """Something that the tests need is not available here; they are skipped."""
 
 
 class Kernel:

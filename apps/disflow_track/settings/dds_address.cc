@@ -6,6 +6,7 @@
 #include <charconv>
 
 #include "program/exit_status.h"
+#include "settings/refusal.h"
 
 namespace disflow::apps {
 namespace {
