@@ -27,6 +27,9 @@ constexpr const char* kDescription =
 constexpr const char* kFooter =
     "OUT_DIR receives cam_K.json, depth/, masks/SET/, data.txt, gt/poses.txt, gt/velocities.txt,\n"
     "gt/model.obj and, with a moving camera, T_wc.txt. The same arguments give the same bytes.\n"
+    "With --mask-delay, --mask-grow-px, --mask-flicker or --mask leaking the disturbed masks go "
+    "to\n"
+    "masks/disturbed/. Stereo cameras leave their left image in infrared/.\n"
     "Of several objects each has a folder of its name in gt/ and masks of its name.\n"
     "\n"
     "Exit status: 0 done, 2 wrong usage, 3 an input failed, 4 an output failed.";
@@ -39,7 +42,7 @@ struct Flag {
 };
 constexpr std::array kFlags{
     Flag{"--motion", "motion", "static, moderate, fast, rotate360 or flying [moderate]"},
-    Flag{"--noise", "noise", "clean, d415 or kinect [clean]"},
+    Flag{"--noise", "noise", "clean, white, d415, kinect, tof, stereo or stereo-raw [clean]"},
     Flag{"--seed", "seed", "Number that all randomness follows from [1]"},
     Flag{"--frames", "frames", "Images taken, dropped ones included [300]"},
     Flag{"--fps", "fps", "Images per second [30]"},
@@ -49,6 +52,11 @@ constexpr std::array kFlags{
     Flag{"--occluder", "occluder", "none or arm [none]"},
     Flag{"--hide", "hide", "Object that is not there from 1 to 2 s, from 1 on [0: none]"},
     Flag{"--drop", "drop", "Share of images that are lost, 0 to 0.9 [0]"},
+    Flag{"--repeat", "repeat", "Share of images that are the one before again, 0 to 0.9 [0]"},
+    Flag{"--jitter-ms", "jitter_ms", "Stamps are off by up to this, ms [0]"},
+    Flag{"--mask-delay", "mask_delay", "Masks are late by so many frames [0]"},
+    Flag{"--mask-grow-px", "mask_grow_px", "Masks reach too far, or (< 0) not far enough [0]"},
+    Flag{"--mask-flicker", "mask_flicker", "Share of masks that are missing or cut [0]"},
     Flag{"--camera", "camera", "static or moving [static]"},
     Flag{"--format", "format", "float, or z16 for depth rounded to millimetres [float]"}};
 
@@ -72,14 +80,33 @@ Fault MakeOptions(const Arguments& arguments, SimulationOptions& options) {
     if (arguments.flags[i].empty()) continue;
     fault = SetSimulationOption(kFlags[i].key, arguments.flags[i], options);
   }
+  bool leaks = false;
   for (const std::string& set : arguments.mask_sets) {
     if (fault.ok()) fault = SetSimulationOption("mask", set, options);
+    leaks = leaks || options.mask == disflow::host::MaskKind::kLeaking;
   }
+  // Of several sets this is the one that the simulation has to be told of.
+  if (leaks) options.mask = disflow::host::MaskKind::kLeaking;
   return fault;
 }
 
-disflow::MaskView MaskOf(const disflow::host::Simulation& simulation, const std::string& set) {
-  return set == "gt" ? simulation.gt_mask() : simulation.sloppy_mask();
+/// A set of masks and what it is called on disk.
+struct MaskSet {
+  const char* name;
+  disflow::MaskView mask;
+};
+
+std::vector<MaskSet> MasksOf(const disflow::host::Simulation& simulation,
+                             const std::vector<std::string>& wanted) {
+  std::vector<MaskSet> sets;
+  for (const std::string& set : wanted) {
+    if (set == "gt") sets.push_back({"gt", simulation.gt_mask()});
+    if (set == "sloppy") sets.push_back({"sloppy", simulation.sloppy_mask()});
+  }
+  // A mask that is missing has no file: whoever reads the sequence holds the one before.
+  if (simulation.HasDisturbedMask() && simulation.mask().given())
+    sets.push_back({"disturbed", simulation.mask()});
+  return sets;
 }
 
 /// Masks and truth of one of several objects.
@@ -88,11 +115,9 @@ Fault WriteObject(const disflow::host::Simulation& simulation, int index, std::s
                   disflow::host::SequenceWriter& writer) {
   const std::string name = ObjectNames(simulation.options())[object];
   Fault fault = writer.AddTruthOf(name, simulation.TruthAt(index, object).object);
-  for (const std::string& set : mask_sets) {
-    if (!fault.ok() || set == "none") continue;
-    disflow::MaskView mask = MaskOf(simulation, set);
+  for (auto [set, mask] : MasksOf(simulation, mask_sets)) {
     mask.label = static_cast<std::uint8_t>(object + 1);
-    fault = writer.AddMaskOf(name, set, mask);
+    if (fault.ok()) fault = writer.AddMaskOf(name, set, mask);
   }
   return fault;
 }
@@ -102,14 +127,15 @@ Fault WriteFrame(disflow::host::Simulation& simulation, int index,
   DepthFrame frame;
   simulation.Render(index, frame);
   Fault fault = writer.AddFrame(frame);
+  const disflow::MaskView infrared = simulation.infrared();
+  if (fault.ok() && infrared.given()) fault = writer.AddInfrared(infrared);
   if (simulation.objects() > 1) {
     for (std::size_t i = 0; i < simulation.objects() && fault.ok(); ++i)
       fault = WriteObject(simulation, index, i, mask_sets, writer);
     return fault;
   }
-  for (const std::string& set : mask_sets) {
-    if (!fault.ok() || set == "none") continue;
-    fault = writer.AddMask(set, MaskOf(simulation, set));
+  for (const auto& [set, mask] : MasksOf(simulation, mask_sets)) {
+    if (fault.ok()) fault = writer.AddMask(set, mask);
   }
   if (fault.ok()) fault = writer.AddTruth(simulation.TruthAt(index).object);
   return fault;
@@ -160,12 +186,13 @@ int main(int argc, char** argv) {
   app.add_option("OUT_DIR", arguments.out_dir, "Folder to write; created if it does not exist")
       ->required();
   app.add_option("--object", arguments.object,
-                 "box, bottle, can, doughnut or FILE.obj, or several joined by +, the nearest "
-                 "first [box]");
+                 "box, bottle, can, doughnut, rounded-box, flat-box, mug or FILE.obj, or several "
+                 "joined by +, the nearest first [box]");
   for (std::size_t i = 0; i < kFlags.size(); ++i) {
     app.add_option(kFlags[i].name, arguments.flags[i], kFlags[i].help);
   }
-  app.add_option("--mask", arguments.mask_sets, "Mask sets to write: gt, sloppy, none [gt]")
+  app.add_option("--mask", arguments.mask_sets,
+                 "Mask sets to write: gt, sloppy, leaking, none [gt]")
       ->delimiter(',');
   app.add_flag("--force", arguments.force, "Replace a sequence that is in OUT_DIR already");
   try {

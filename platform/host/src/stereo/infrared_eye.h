@@ -38,7 +38,7 @@ struct EyeModel {
   double shot_noise = 0.013;  ///< Variance per grey level.
   double read_noise = 0.6;    ///< Grey levels.
   /// Share of the light. The laser's grain differs between the eyes and stays while nothing moves.
-  double speckle = 0.02;
+  double speckle = 0.05;
 };
 
 /// One infrared camera of a stereo pair.
