@@ -29,6 +29,9 @@ constexpr const char* kDescription =
 constexpr const char* kFooter =
     "OUT_DIR receives cam_K.json, depth/, masks/SET/, data.txt, gt/poses.txt, gt/velocities.txt,\n"
     "gt/model.obj and, with a moving camera, T_wc.txt. The same arguments give the same bytes.\n"
+    "With --mask-delay, --mask-grow-px, --mask-flicker or --mask leaking the disturbed masks go "
+    "to\n"
+    "masks/disturbed/. Stereo cameras leave their left image in infrared/.\n"
     "Of several objects each has a folder of its name in gt/ and masks of its name.\n"
     "\n"
     "Exit status: 0 done, 2 wrong usage, 3 an input failed, 4 an output failed.";
@@ -51,6 +54,11 @@ constexpr std::array kExplanations{
     Explanation{"support", "What the object stands on [none]"},
     Explanation{"hide", "Object that is not there from 1 to 2 s, from 1 on [0: none]"},
     Explanation{"drop", "Share of images that are lost [0]"},
+    Explanation{"repeat", "Share of images that are the one before again [0]"},
+    Explanation{"jitter_ms", "Stamps are off by up to this, ms [0]"},
+    Explanation{"mask_delay", "Masks are late by so many frames [0]"},
+    Explanation{"mask_grow_px", "Masks reach too far, or (< 0) not far enough [0]"},
+    Explanation{"mask_flicker", "Share of masks that are missing or cut [0]"},
     Explanation{"camera", "Whether the camera moves [static]"},
     Explanation{"format", "Depth as float32 metres, or rounded to millimetres [float]"}};
 
@@ -84,14 +92,33 @@ Fault MakeOptions(const Arguments& arguments, SimulationOptions& options) {
   for (const auto& [key, value] : arguments.options) {
     if (fault.ok() && !value.empty()) fault = SetSimulationOption(key, value, options);
   }
+  bool leaks = false;
   for (const std::string& set : arguments.mask_sets) {
     if (fault.ok()) fault = SetSimulationOption(kMaskKey, set, options);
+    leaks = leaks || options.mask == disflow::host::MaskKind::kLeaking;
   }
+  // Of several sets this is the one that the simulation has to be told of.
+  if (leaks) options.mask = disflow::host::MaskKind::kLeaking;
   return fault;
 }
 
-disflow::MaskView MaskOf(const disflow::host::Simulation& simulation, const std::string& set) {
-  return set == "gt" ? simulation.gt_mask() : simulation.sloppy_mask();
+/// A set of masks and what it is called on disk.
+struct MaskSet {
+  const char* name;
+  disflow::MaskView mask;
+};
+
+std::vector<MaskSet> MasksOf(const disflow::host::Simulation& simulation,
+                             const std::vector<std::string>& wanted) {
+  std::vector<MaskSet> sets;
+  for (const std::string& set : wanted) {
+    if (set == "gt") sets.push_back({"gt", simulation.gt_mask()});
+    if (set == "sloppy") sets.push_back({"sloppy", simulation.sloppy_mask()});
+  }
+  // A mask that is missing has no file: whoever reads the sequence holds the one before.
+  if (simulation.HasDisturbedMask() && simulation.mask().given())
+    sets.push_back({"disturbed", simulation.mask()});
+  return sets;
 }
 
 /// Masks and truth of one of several objects.
@@ -100,11 +127,9 @@ Fault WriteObject(const disflow::host::Simulation& simulation, int index, std::s
                   disflow::host::SequenceWriter& writer) {
   const std::string name = ObjectNames(simulation.options())[object];
   Fault fault = writer.AddTruthOf(name, simulation.TruthAt(index, object).object);
-  for (const std::string& set : mask_sets) {
-    if (!fault.ok() || set == "none") continue;
-    disflow::MaskView mask = MaskOf(simulation, set);
+  for (auto [set, mask] : MasksOf(simulation, mask_sets)) {
     mask.label = static_cast<std::uint8_t>(object + 1);
-    fault = writer.AddMaskOf(name, set, mask);
+    if (fault.ok()) fault = writer.AddMaskOf(name, set, mask);
   }
   return fault;
 }
@@ -114,14 +139,15 @@ Fault WriteFrame(disflow::host::Simulation& simulation, int index,
   DepthFrame frame;
   simulation.Render(index, frame);
   Fault fault = writer.AddFrame(frame);
+  const disflow::MaskView infrared = simulation.infrared();
+  if (fault.ok() && infrared.given()) fault = writer.AddInfrared(infrared);
   if (simulation.objects() > 1) {
     for (std::size_t i = 0; i < simulation.objects() && fault.ok(); ++i)
       fault = WriteObject(simulation, index, i, mask_sets, writer);
     return fault;
   }
-  for (const std::string& set : mask_sets) {
-    if (!fault.ok() || set == "none") continue;
-    fault = writer.AddMask(set, MaskOf(simulation, set));
+  for (const auto& [set, mask] : MasksOf(simulation, mask_sets)) {
+    if (fault.ok()) fault = writer.AddMask(set, mask);
   }
   if (fault.ok()) fault = writer.AddTruth(simulation.TruthAt(index).object);
   return fault;
@@ -172,14 +198,15 @@ int main(int argc, char** argv) {
   app.add_option("OUT_DIR", arguments.out_dir, "Folder to write; created if it does not exist")
       ->required();
   app.add_option("--object", arguments.object,
-                 "box, bottle, can, doughnut or FILE.obj, or several joined by +, the nearest "
-                 "first [box]");
+                 "box, bottle, can, doughnut, rounded-box, flat-box, mug or FILE.obj, or several "
+                 "joined by +, the nearest first [box]");
   for (const auto& option : disflow::host::ListSimulationOptions()) {
     if (option.key == kMaskKey) continue;
     const std::string key(option.key);
     app.add_option("--" + key, arguments.options[key], HelpOf(option));
   }
-  app.add_option("--mask", arguments.mask_sets, "Mask sets to write: gt, sloppy, none [gt]")
+  app.add_option("--mask", arguments.mask_sets,
+                 "Mask sets to write: gt, sloppy, leaking, none [gt]")
       ->delimiter(',');
   app.add_flag("--force", arguments.force, "Replace a sequence that is in OUT_DIR already");
   try {

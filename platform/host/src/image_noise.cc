@@ -93,6 +93,7 @@ ImageNoise::ImageNoise(const ImageNoiseModel& model, int width_px, int height_px
 }
 
 void ImageNoise::StartFrame(int frame) {
+  if (fresh_share_ == 0.0F) return;
   constexpr std::uint64_t kFirstStream = 2'000'000;  // clear of all others
   RandomNumbers random(seed_, kFirstStream + static_cast<std::uint64_t>(frame));
   DrawSmoothNoise(normal_, random, model_.kernel_std_px, width_, height_, fresh_);
@@ -119,6 +120,7 @@ float ImageNoise::At(int u, int v, float disparity_px, std::uint32_t set) const 
   // The weights' squares have to sum up to 1 for the variance to stay what it is.
   const float kept = (here * Shifted(kept_, u, v, first) + next * Shifted(kept_, u, v, first + 1)) /
                      std::sqrt(here * here + next * next);
+  if (fresh_share_ == 0.0F) return kept;
   return kept_share_ * kept + fresh_share_ * Shifted(fresh_, u, v, set * kShiftsPerSet);
 }
 

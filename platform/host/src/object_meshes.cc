@@ -6,53 +6,12 @@
 #include <numbers>
 #include <span>
 
+#include "mesh_tube.h"
+
 namespace disflow::host {
 namespace {
 
 using std::numbers::pi;
-
-/// Triangles over a grid of points that is closed around (columns) and open or closed along
-/// (rows). Outside is where columns x rows points.
-template <class Surface>
-TriangleMesh MeshTube(int columns, int rows, bool closed_rows, const Surface& surface) {
-  TriangleMesh mesh;
-  for (int row = 0; row < rows; ++row) {
-    for (int column = 0; column < columns; ++column) {
-      mesh.vertices.push_back(surface(2.0 * pi * column / columns, row));
-    }
-  }
-  const auto index = [columns, rows](int column, int row) {
-    return static_cast<std::uint32_t>((row % rows) * columns + column % columns);
-  };
-  for (int row = 0; row + (closed_rows ? 0 : 1) < rows; ++row) {
-    for (int column = 0; column < columns; ++column) {
-      const auto a = index(column, row);
-      const auto b = index(column + 1, row);
-      const auto c = index(column + 1, row + 1);
-      const auto d = index(column, row + 1);
-      // The first or last row may be a single point drawn many times.
-      if (mesh.vertices[a] != mesh.vertices[b]) mesh.triangles.push_back({a, b, c});
-      if (mesh.vertices[c] != mesh.vertices[d]) mesh.triangles.push_back({a, c, d});
-    }
-  }
-  return mesh;
-}
-
-/// A point of a profile: distance from the axis and height.
-struct ProfilePoint {
-  double radius_m;
-  double z_m;
-};
-
-/// Circular arc from one angle to another (rad, 0 = outwards, pi/2 = up).
-void AppendArc(std::vector<ProfilePoint>& profile, ProfilePoint centre, double radius_m,
-               double from_rad, double to_rad, int steps) {
-  for (int i = 0; i <= steps; ++i) {
-    const double angle = from_rad + (to_rad - from_rad) * i / steps;
-    profile.push_back({std::max(0.0, centre.radius_m + radius_m * std::cos(angle)),
-                       centre.z_m + radius_m * std::sin(angle)});
-  }
-}
 
 /// Smooth step from 0 at `low` to 1 at `high` with continuous curvature.
 double Blend(double x, double low, double high) {
@@ -180,10 +139,7 @@ TriangleMesh MakeCapsule(double radius_m, double length_m) {
   AppendArc(profile, {0.0, -radius_m}, radius_m, 0.0, 0.5 * pi, 16);
   profile.front().radius_m = 0.0;
   profile.back().radius_m = 0.0;
-  return MeshTube(64, static_cast<int>(profile.size()), false, [&profile](double angle, int row) {
-    const ProfilePoint& point = profile[static_cast<std::size_t>(row)];
-    return Vec3d(point.radius_m * std::cos(angle), point.radius_m * std::sin(angle), point.z_m);
-  });
+  return MeshProfile(profile, 64);
 }
 
 }  // namespace disflow::host

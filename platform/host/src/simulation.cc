@@ -9,7 +9,6 @@
 
 #include "disflow/host/object_meshes.h"
 #include "disflow/host/random.h"
-#include "scene_label.h"
 #include "smooth_motion.h"
 
 namespace disflow::host {
@@ -20,7 +19,8 @@ Mat3d StartRotation(ObjectKind object, const TriangleMesh& mesh, std::uint64_t s
   Mat3d rotation;
   rotation << 1, 0, 0, 0, 0, -1, 0, 1, 0;  // +z up: the camera's y axis points down
   double tilt_rad = 25.0 * kRadPerDeg;
-  if (object == ObjectKind::kDoughnut) tilt_rad = 50.0 * kRadPerDeg;
+  if (object == ObjectKind::kDoughnut || object == ObjectKind::kFlatBox)
+    tilt_rad = 50.0 * kRadPerDeg;
   if (object == ObjectKind::kObjFile) {
     Vec3d extent = Vec3d::Zero();
     for (const Vec3d& vertex : mesh.vertices) extent = extent.cwiseMax(vertex.cwiseAbs());
@@ -35,11 +35,20 @@ Mat3d StartRotation(ObjectKind object, const TriangleMesh& mesh, std::uint64_t s
   return ExpSo3(Vec3d(tilt_rad, 0.0, 0.0)) * ExpSo3(Vec3d(0.0, yaw_rad, 0.0)) * rotation;
 }
 
-std::vector<bool> ChooseDropped(const SimulationOptions& options) {
-  RandomNumbers random(options.seed, 6);
-  std::vector<bool> dropped(static_cast<std::size_t>(options.frames));
-  for (std::size_t i = 1; i < dropped.size(); ++i) dropped[i] = random.Uniform() < options.drop;
-  return dropped;
+/// A share of the frames, never the first.
+std::vector<bool> ChooseFrames(double share, int frames, RandomNumbers random) {
+  std::vector<bool> chosen(static_cast<std::size_t>(frames));
+  for (std::size_t i = 1; i < chosen.size(); ++i) chosen[i] = random.Uniform() < share;
+  return chosen;
+}
+
+std::vector<StampNs> ChooseJitter(const SimulationOptions& options) {
+  // Stamps keep their order.
+  const double most_s = std::min(1e-3 * options.jitter_ms, 0.45 / options.fps);
+  RandomNumbers random(options.seed, 14);
+  std::vector<StampNs> jitter_ns(static_cast<std::size_t>(options.frames));
+  for (StampNs& jitter : jitter_ns) jitter = std::llround(1e9 * random.Uniform(-most_s, most_s));
+  return jitter_ns;
 }
 
 /// Where an object is in the image at the start, about.
@@ -87,16 +96,20 @@ Simulation::Simulation(const SimulationOptions& options, std::vector<TriangleMes
       bodies_(MakeBodies(options, std::move(meshes))),
       renderer_(camera_, options.width_px, options.height_px),
       depth_camera_(MakeDepthCamera(options)),
-      dropped_(ChooseDropped(options)),
+      dropped_(ChooseFrames(options.drop, options.frames, RandomNumbers(options.seed, 6))),
+      repeated_(ChooseFrames(options.repeat, options.frames, RandomNumbers(options.seed, 13))),
+      jitter_ns_(ChooseJitter(options)),
       depth_m_(renderer_.labels().size()),
       depth_mm_(options.format == DepthFormat::kUint16 ? depth_m_.size() : 0),
       gt_mask_(depth_m_.size()),
       sloppy_mask_(depth_m_.size()),
+      disturbed_mask_(depth_m_.size()),
       exact_(depth_m_.size()) {
   const Body& first = bodies_.front();
   if (options.camera == CameraKind::kMoving) {
     camera_motion_.emplace(first.workspace.centre_m.z(), options.seed);
   }
+  if (options.mask_delay > 0) late_.emplace(camera_, options.width_px, options.height_px);
   if (options.occluder == OccluderKind::kArm) arm_.emplace(first.radius_m, options.seed);
   if (options.occluder == OccluderKind::kHand)
     hand_.emplace(first.mesh, TruthAt(0).object.pose.rotation());
@@ -115,7 +128,8 @@ std::vector<Simulation::Body> Simulation::MakeBodies(const SimulationOptions& op
                       .radius_m = radius_m,
                       .workspace = {},
                       .motion = nullptr,
-                      .sloppy = SloppyMask(options.width_px, options.height_px)});
+                      .sloppy = SloppyMask(options.width_px, options.height_px),
+                      .disturbance = MaskDisturbance(options, bodies.size())});
   }
   std::vector<Workspace> workspaces = {
       FitWorkspace(camera, options.width_px, options.height_px, radii_m.front())};
@@ -143,53 +157,40 @@ FrameTruth Simulation::TruthAt(int index, std::size_t object) const {
   const double time_s = index / options_.fps;
   FrameTruth truth;
   // Not zero: a stamp of zero means "not set" to some programs.
-  truth.stamp_ns = kFirstStamp_ns + std::llround(time_s * 1e9);
+  truth.stamp_ns =
+      kFirstStamp_ns + std::llround(time_s * 1e9) + jitter_ns_[static_cast<std::size_t>(index)];
   if (camera_motion_) truth.camera = camera_motion_->At(time_s);
   truth.object = SeenFrom(truth.camera, bodies_[object].motion->At(time_s));
   return truth;
 }
 
+/// The frame whose image is shown.
+int Simulation::SourceOf(int index) const {
+  while (index > 0 && (IsRepeated(index) || IsDropped(index))) --index;
+  return index;
+}
+
 void Simulation::Render(int index, DepthFrame& frame) {
   const FrameTruth truth = TruthAt(index);
-  DrawScene(index, Vec3d::Zero(), renderer_);
+  const int shown = SourceOf(index);
+  DrawScene(shown, Vec3d::Zero(), renderer_);
   const SceneView scene{.inverse_depth_per_m = renderer_.inverse_depth_per_m(),
                         .labels = renderer_.labels(),
-                        .surfaces = Surfaces(index),
-                        .draw_from = [this, index](const Vec3d& eye_m, DepthRenderer& renderer) {
-                          DrawScene(index, eye_m, renderer);
+                        .surfaces = Surfaces(shown),
+                        .draw_from = [this, shown](const Vec3d& eye_m, DepthRenderer& renderer) {
+                          DrawScene(shown, eye_m, renderer);
                         }};
-  depth_camera_->Measure(index, scene, depth_m_);
-  DrawMasks(index);
+  depth_camera_->Measure(shown, scene, depth_m_);
+  DrawMasks(shown);
+  if (HasDisturbedMask()) DisturbMasks(shown);
 
   frame = DepthFrame{};
   frame.depth = DepthToDeliver();
   frame.camera = camera_;
   frame.stamp_ns = truth.stamp_ns;
-  if (options_.mask == MaskKind::kGt) frame.mask = gt_mask();
-  if (options_.mask == MaskKind::kSloppy) frame.mask = sloppy_mask();
+  frame.mask = mask();
   frame.has_T_wc = camera_motion_.has_value();
   if (frame.has_T_wc) frame.T_wc = truth.camera.pose.Cast<float>();
-}
-
-void Simulation::DrawMasks(int index) {
-  const std::span<const std::uint32_t> labels = renderer_.labels();
-  std::fill(gt_mask_.begin(), gt_mask_.end(), std::uint8_t{0});
-  std::fill(sloppy_mask_.begin(), sloppy_mask_.end(), std::uint8_t{0});
-  // The nearest last, so that it wins where inexact masks overlap.
-  for (std::size_t i = bodies_.size(); i-- > 0;) {
-    const auto label = SceneLabel::kFirstObject + static_cast<std::uint32_t>(i);
-    const auto value = static_cast<std::uint8_t>(bodies_.size() == 1 ? 255U : label);
-    std::transform(labels.begin(), labels.end(), exact_.begin(), [label](std::uint32_t seen) {
-      return static_cast<std::uint8_t>(seen == label ? 255 : 0);
-    });
-    bodies_[i].sloppy.Update(index, exact_);
-    const auto mark = [value](std::span<const std::uint8_t> mask, std::vector<std::uint8_t>& all) {
-      for (std::size_t pixel = 0; pixel < all.size(); ++pixel)
-        if (mask[pixel] != 0) all[pixel] = value;
-    };
-    mark(exact_, gt_mask_);
-    mark(bodies_[i].sloppy.mask(), sloppy_mask_);
-  }
 }
 
 DepthView Simulation::DepthToDeliver() {
@@ -226,6 +227,12 @@ TriangleMesh MakeObjectMesh(ObjectKind object) {
       return MakeCan();
     case ObjectKind::kDoughnut:
       return MakeDoughnut();
+    case ObjectKind::kRoundedBox:
+      return MakeRoundedBox();
+    case ObjectKind::kFlatBox:
+      return MakeFlatBox();
+    case ObjectKind::kMug:
+      return MakeMug();
     case ObjectKind::kObjFile:
       break;
   }

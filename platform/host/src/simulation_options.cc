@@ -15,7 +15,10 @@ namespace {
 constexpr std::array kObjects{Choice<ObjectKind>{"box", ObjectKind::kBox},
                               Choice<ObjectKind>{"bottle", ObjectKind::kBottle},
                               Choice<ObjectKind>{"can", ObjectKind::kCan},
-                              Choice<ObjectKind>{"doughnut", ObjectKind::kDoughnut}};
+                              Choice<ObjectKind>{"doughnut", ObjectKind::kDoughnut},
+                              Choice<ObjectKind>{"rounded-box", ObjectKind::kRoundedBox},
+                              Choice<ObjectKind>{"flat-box", ObjectKind::kFlatBox},
+                              Choice<ObjectKind>{"mug", ObjectKind::kMug}};
 constexpr std::array kMotions{Choice<MotionKind>{"static", MotionKind::kStatic},
                               Choice<MotionKind>{"moderate", MotionKind::kModerate},
                               Choice<MotionKind>{"fast", MotionKind::kFast},
@@ -37,9 +40,9 @@ constexpr std::array kSupports{Choice<SupportKind>{"none", SupportKind::kNone},
                                Choice<SupportKind>{"table", SupportKind::kTable}};
 constexpr std::array kCameras{Choice<CameraKind>{"static", CameraKind::kStatic},
                               Choice<CameraKind>{"moving", CameraKind::kMoving}};
-constexpr std::array kMasks{Choice<MaskKind>{"gt", MaskKind::kGt},
-                            Choice<MaskKind>{"sloppy", MaskKind::kSloppy},
-                            Choice<MaskKind>{"none", MaskKind::kNone}};
+constexpr std::array kMasks{
+    Choice<MaskKind>{"gt", MaskKind::kGt}, Choice<MaskKind>{"sloppy", MaskKind::kSloppy},
+    Choice<MaskKind>{"leaking", MaskKind::kLeaking}, Choice<MaskKind>{"none", MaskKind::kNone}};
 constexpr std::array kFormats{Choice<DepthFormat>{"float", DepthFormat::kFloat32},
                               Choice<DepthFormat>{"z16", DepthFormat::kUint16}};
 
@@ -53,7 +56,10 @@ constexpr Range<int> kFrames{1, 1000000};
 constexpr Range<double> kFps{1.0, 1000.0};
 constexpr Range<int> kSide{32, 4096};
 constexpr Range<double> kFocal{16.0, 16384.0};
-constexpr Range<double> kDrop{0.0, 0.9};
+constexpr Range<double> kShare{0.0, 0.9};
+constexpr Range<double> kJitter{0.0, 1000.0};
+constexpr Range<int> kDelay{0, 30};
+constexpr Range<int> kGrow{-40, 40};
 constexpr Range<int> kHide{0, static_cast<int>(kMaxSimulatedObjects)};
 
 constexpr std::string_view kObjPrefix = "obj:";
@@ -127,9 +133,14 @@ constexpr std::array kOptions{ChoiceOption<&Options::motion, kMotions>("motion")
                               ChoiceOption<&Options::occluder, kOccluders>("occluder"),
                               ChoiceOption<&Options::support, kSupports>("support"),
                               NumberOption<&Options::hide, kHide>("hide"),
-                              NumberOption<&Options::drop, kDrop>("drop"),
+                              NumberOption<&Options::drop, kShare>("drop"),
+                              NumberOption<&Options::repeat, kShare>("repeat"),
+                              NumberOption<&Options::jitter_ms, kJitter>("jitter_ms"),
                               ChoiceOption<&Options::camera, kCameras>("camera"),
                               ChoiceOption<&Options::mask, kMasks>("mask"),
+                              NumberOption<&Options::mask_delay, kDelay>("mask_delay"),
+                              NumberOption<&Options::mask_grow_px, kGrow>("mask_grow_px"),
+                              NumberOption<&Options::mask_flicker, kShare>("mask_flicker"),
                               ChoiceOption<&Options::format, kFormats>("format")};
 
 std::string ListKeys() {

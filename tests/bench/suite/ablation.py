@@ -80,7 +80,7 @@ def measure(programs, variants, seeds):
             line.append(FIGURES[figure].show(_mean_over([summaries[name] for name in noisy], figure)))
         line.append(" ".join(f"`{setting}`" for setting in variant.settings) or "–")
         lines.append(line)
-    seed_text = f"seeds 1 to {len(seeds)}" if len(seeds) > 1 else "seed 1"
+    seed_text = pages.name_seeds(seeds)
     note = f"Means over {seed_text}, 300 frames each; the four figures on the right are means over box and bottle. "
     note += "Times were taken with several runs at once and only compare with each other."
     return note + "\n\n" + pages.table(head, lines)

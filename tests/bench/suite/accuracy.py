@@ -219,7 +219,7 @@ def missed_goals(results):
 
 def page(results, plots):
     """What stands between the markers of docs/results.md."""
-    seeds = f"seeds {results.seeds[0]} to {results.seeds[-1]}" if len(results.seeds) > 1 else f"seed {results.seeds[0]}"
+    seeds = pages.name_seeds(results.seeds)
     fits = results.tracker_bytes <= sequences.MEMORY_LIMIT_BYTES
     parts = [
         f"Means over {seeds}; in parentheses the goal, {MET} met, {MISSED} missed. **{summary_line(results)}** "

@@ -21,6 +21,9 @@ import sequences
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 
+TUNING_SEEDS = [1, 2, 3]
+FINAL_SEEDS = [11, 12, 13, 14, 15]
+
 
 def parse(words):
     parser = argparse.ArgumentParser(prog="./dev bench", description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
@@ -28,14 +31,13 @@ def parse(words):
     parser.add_argument("--bin", type=pathlib.Path, default=ROOT / "build/release/bin", help="folder of the programs")
     parser.add_argument("--out", type=pathlib.Path, help="folder for what is measured [build/WHAT]")
     parser.add_argument("--docs", type=pathlib.Path, default=ROOT / "docs", help="folder of the pages [docs]")
-    parser.add_argument("--seeds", type=int, help="seeds 1 to N [accuracy: 5, others: 3]")
+    parser.add_argument("--seeds", type=pages.seeds, metavar="LIST",
+                        help="e.g. 11-15 or 1,4 [accuracy: 11-15, which nothing may be tuned on; others: 1-3]")
+    parser.add_argument("--tune", action="store_true", help="seeds 1-3, for choosing settings; the pages stay as they are")
     parser.add_argument("--quick", action="store_true", help="seed 1 alone; the pages stay as they are")
     parser.add_argument("--only", action="append", metavar="TEXT", default=[],
                         help="only rows whose name contains this, may be repeated; the pages stay as they are")
-    options = parser.parse_args(words)
-    if options.seeds is not None and options.seeds < 1:
-        parser.error("--seeds wants at least 1")
-    return options
+    return parser.parse_args(words)
 
 
 def measure_accuracy(options, seeds, whole):
@@ -81,9 +83,11 @@ def main(words):
     options = parse(words)
     is_accuracy = options.what == "accuracy"
     options.out = options.out or ROOT / "build" / options.what
-    seeds = list(range(1, 1 + (1 if options.quick else options.seeds or (5 if is_accuracy else 3))))
+    seeds = options.seeds or (FINAL_SEEDS if is_accuracy and not options.tune else TUNING_SEEDS)
+    if options.quick:
+        seeds = TUNING_SEEDS[:1]
     # What is measured only in part does not belong on a page.
-    whole = not options.quick and not options.only
+    whole = not options.quick and not options.tune and not options.only
     begin = time.monotonic()
     try:
         MEASURES[options.what](options, seeds, whole)

@@ -88,7 +88,7 @@ def measure(programs, seeds):
                 lines.append(line)
     head = ["objects, nearest first", "ADD-AUC %", "ADD-S-AUC %", "worst seed: ADD-AUC %", "frames without a pose",
             "of them unseen", "restarts"]
-    seed_text = f"seeds 1 to {len(seeds)}" if len(seeds) > 1 else "seed 1"
+    seed_text = pages.name_seeds(seeds)
     text = f"Means over {seed_text}, 300 frames each.\n\n" + pages.table(head, lines)
     times = []
     for title, shapes in SCENES.items():

@@ -129,14 +129,14 @@ def draw(programs, rows, seeds, folder):
         return [by_name[name] for name in names if name in by_name]
 
     pictures = []
-    main = present("box, fast, d415", "bottle, fast, d415")
+    main = present("box, fast, stereo", "bottle, fast, stereo", "box, fast, d415", "bottle, fast, d415")[:2]
     if main:
         _errors(programs, folder / "accuracy-errors.png", main, seeds)
         pictures.append(("accuracy-errors.png", "Pose errors over time, one curve per seed"))
         _nees(programs, folder / "accuracy-nees.png", main, seeds)
         pictures.append(("accuracy-nees.png", "Normalised squared errors over time, one curve per seed"))
     curves = present(
-        "box, fast, clean", "box, fast, d415", "bottle, fast, d415", "box, flying, d415", "box, fast, d415, sloppy mask",
+        "box, fast, clean", "box, fast, stereo", "bottle, fast, stereo", "box, fast, d415", "bottle, fast, d415", "box, fast, d415, sloppy mask",
         "box, fast, d415, no mask",
     )
     if curves:

@@ -59,33 +59,65 @@ def _rows():
             goals = tuple(goals) + CONSISTENT
         rows.append(Row(name, scene, tuple(goals), **more))
 
-    add("box", "fast", "clean", _accuracy(99.85, 0.2, 0.05, 0.9, 3.0))
-    add("bottle", "fast", "clean", _accuracy(99.95, 0.1, 0.08, 0.8, 3.0))
-    add("box", "fast", "d415", _accuracy(99.2, 0.9, 0.4, 1.8, 7.5), timed=True)
-    add("bottle", "fast", "d415", _accuracy(99.6, 0.35, 0.5, 1.0, 9.0), timed=True)
-    for noise, limit in (("clean", 99.6), ("d415", 98.8)):
-        for thing in ("box", "bottle"):
-            add(thing, "flying", noise, (Goal("add_auc", ">=", limit),))
-    drift = (Goal("drift_m", "<=", 0.3), Goal("drift_deg", "<=", 0.15))
-    add("box", "rotate360", "d415", drift + CALIBRATED, mesh=True)
-    add("bottle", "rotate360", "d415", drift + SURFACE + CALIBRATED, mesh=True)
-    for thing in ("box", "bottle"):
-        add(thing, "rotate360", "clean", mesh=True)
-    for extra, label in (
+    def add_auc(limit, v=None, w=None):
+        goals = (Goal("add_auc", ">=", limit),)
+        return goals + ((Goal("v", "<=", v), Goal("w", "<=", w)) if v else ())
+
+    disturbances = (
         ("mask=sloppy", "sloppy mask"),
         ("mask=none", "no mask"),
         ("occluder=arm", "arm in front"),
         ("drop=0.2", "20 % dropped"),
         ("camera=moving", "moving camera"),
+    )
+    # Cameras as they are come first, what no camera does comes last.
+    for thing in ("box", "bottle", "rounded-box", "mug"):
+        add(thing, "fast", "stereo", add_auc(98.7, 2.0, 12.0))
+    for thing in ("box", "bottle", "rounded-box", "mug"):
+        add(thing, "fast", "stereo-raw", add_auc(97.8))
+    for thing in ("box", "bottle"):
+        add(thing, "flying", "stereo", add_auc(98.0))
+    for extra, label in disturbances[:2]:
+        for thing in ("box", "bottle"):
+            add(thing, "fast", "stereo", (), extra, label, like=f"{thing}, fast, stereo")
+    for thing in ("box", "bottle"):
+        add(thing, "fast", "tof", add_auc(98.5))
+    add("box", "fast", "d415", add_auc(99.2, 1.3, 6.0), timed=True)
+    add("bottle", "fast", "d415", add_auc(99.5, 1.3, 6.0), timed=True)
+    turned = (Goal("drift_m", "<=", 0.6), Goal("v", "<=", 0.8), Goal("w", "<=", 3.0))
+    for thing in ("box", "bottle"):
+        add(thing, "rotate360", "d415", turned + CALIBRATED, mesh=True)
+    for extra, label in disturbances + (
+        ("mask=leaking", "leaking mask"),
+        ("mask_delay=2", "mask 2 frames late"),
+        ("mask_grow_px=6", "mask too large"),
+        ("mask_grow_px=-4", "mask too small"),
+        ("mask_flicker=0.1", "flickering mask"),
+        ("repeat=0.05&jitter_ms=3", "images repeated, stamps off"),
     ):
         for thing in ("box", "bottle"):
             timed = thing == "box" and extra == "mask=none"
             add(thing, "fast", "d415", (), extra, label, like=f"{thing}, fast, d415", timed=timed)
+    add("box", "fast", "clean", _accuracy(99.85, 0.2, 0.05, 0.9, 3.0))
+    add("bottle", "fast", "clean", _accuracy(99.95, 0.1, 0.08, 0.8, 3.0))
+    for thing in ("box", "bottle"):
+        add(thing, "flying", "clean", add_auc(99.6))
+    for thing in ("box", "bottle"):
+        add(thing, "flying", "clean", add_auc(98.5), "fps=15", "15 frames/s")
+    for thing in ("box", "bottle"):
+        add(thing, "rotate360", "clean", mesh=True)
     symmetric = (Goal("add_s_auc", ">=", 99.0), Goal("drift_m", "<=", 2.0))
-    for noise in ("clean", "d415"):
+    for noise in ("clean", "white"):
         for thing in ("can", "doughnut"):
             seen_seams = (Goal("add_auc", ">=", 99.0),) if (thing, noise) == ("can", "clean") else ()
             add(thing, "fast", noise, symmetric + seen_seams)
+    add("box", "fast", "white", _accuracy(99.2, 0.9, 0.4, 1.8, 7.5))
+    add("bottle", "fast", "white", _accuracy(99.6, 0.35, 0.5, 1.0, 9.0))
+    for thing in ("box", "bottle"):
+        add(thing, "flying", "white", add_auc(98.8))
+    drift = (Goal("drift_m", "<=", 0.3), Goal("drift_deg", "<=", 0.15))
+    add("box", "rotate360", "white", drift + CALIBRATED, mesh=True)
+    add("bottle", "rotate360", "white", drift + SURFACE + CALIBRATED, mesh=True)
     return tuple(rows)
 
 

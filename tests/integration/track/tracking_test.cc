@@ -42,7 +42,7 @@ TEST_P(SimulatedScene, IsTracked) {
 INSTANTIATE_TEST_SUITE_P(Tracking, SimulatedScene,
                          testing::Values(Scene{"BottleFastClean", "bottle", "fast", "clean", 0.97},
                                          Scene{"BoxFastWhite", "box", "fast", "white", 0.95},
-                                         Scene{"DoughnutModerateD415", "doughnut", "moderate",
+                                         Scene{"DoughnutModerateWhite", "doughnut", "moderate",
                                                "white", 0.95}),
                          [](const testing::TestParamInfo<Scene>& test) { return test.param.name; });
 
@@ -66,9 +66,10 @@ TEST_F(TrackingTest, TwoRunsOfOneReplay_GiveTheSameBytes) {
 }
 
 TEST_F(TrackingTest, RecordedFrames_ReplayToTheSameTrajectory) {
-  const Outcome live = RunTrack({"--sensor", "sim:box?motion=fast&noise=white&frames=20", "--record",
-                                 Path("recorded"), "--csv", Path("live.csv"), "--no-timing"},
-                                scratch());
+  const Outcome live =
+      RunTrack({"--sensor", "sim:box?motion=fast&noise=white&frames=20", "--record",
+                Path("recorded"), "--csv", Path("live.csv"), "--no-timing"},
+               scratch());
   ASSERT_EQ(live.exit_status, 0) << live.err;
   const Outcome replay = RunTrack(
       {"--sensor", "replay:" + Path("recorded"), "--csv", Path("replay.csv"), "--no-timing"},

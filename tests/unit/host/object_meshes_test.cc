@@ -73,7 +73,10 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(KnownObject{"Box", MakeCrackerBox, {0.164, 0.072, 0.213}},
                     KnownObject{"Bottle", MakeMustardBottle, {0.095, 0.058, 0.191}},
                     KnownObject{"Can", MakeCan, {0.102, 0.102, 0.140}},
-                    KnownObject{"Doughnut", MakeDoughnut, {0.120, 0.120, 0.040}}),
+                    KnownObject{"Doughnut", MakeDoughnut, {0.120, 0.120, 0.040}},
+                    KnownObject{"RoundedBox", MakeRoundedBox, {0.160, 0.070, 0.200}},
+                    KnownObject{"FlatBox", MakeFlatBox, {0.090, 0.075, 0.030}},
+                    KnownObject{"Mug", MakeMug, {0.1145, 0.084, 0.095}}),
     [](const auto& test) { return test.param.name; });
 
 TEST(Doughnut, Facets_StayWithin50MicrometresOfTheTorus) {
@@ -83,6 +86,42 @@ TEST(Doughnut, Facets_StayWithin50MicrometresOfTheTorus) {
     const double ring = std::hypot(centre.x(), centre.y()) - 0.040;
     ASSERT_NEAR(std::hypot(ring, centre.z()), 0.020, 5e-5);
   }
+}
+
+/// Distance from the surface of a box whose edges are rounded, by its definition.
+double RoundedBoxDistance(const Vec3d& x, const Vec3d& half_m, double radius_m) {
+  const Vec3d core = half_m - Vec3d::Constant(radius_m);
+  return (x - x.cwiseMin(core).cwiseMax(-core)).norm() - radius_m;
+}
+
+TEST(RoundedBoxes, Facets_StayWithin50MicrometresOfTheRoundedShape) {
+  const auto check = [](const TriangleMesh& mesh, const Vec3d& size_m, double radius_m) {
+    for (const auto& t : mesh.triangles) {
+      const Vec3d centre = (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3.0;
+      ASSERT_NEAR(RoundedBoxDistance(centre, 0.5 * size_m, radius_m), 0.0, 5e-5);
+    }
+    for (const Vec3d& x : mesh.vertices)
+      if (x.norm() > 0.0 && std::abs(x.x()) + std::abs(x.y()) > 0.0) {
+        ASSERT_NEAR(RoundedBoxDistance(x, 0.5 * size_m, radius_m), 0.0, 1e-12);
+      }
+  };
+  check(MakeRoundedBox(), Vec3d(0.160, 0.070, 0.200), 0.004);
+  check(MakeFlatBox(), Vec3d(0.090, 0.075, 0.030), 0.002);
+}
+
+TEST(Mug, IsHollowAndHasAHandleOnOneSide) {
+  const TriangleMesh mesh = MakeMug();
+  double farthest_m = 0.0;
+  bool has_floor = false;
+  for (const Vec3d& x : mesh.vertices) {
+    farthest_m = std::max(farthest_m, x.x());
+    has_floor =
+        has_floor || (std::hypot(x.x(), x.y()) < 0.02 && x.z() > -0.0475 + 0.005 && x.z() < 0.0);
+  }
+  EXPECT_GT(farthest_m, -Low(mesh).x() - 1e-9);
+  EXPECT_TRUE(has_floor);
+  // Walls of 5 mm, a floor of 6 mm and a handle: far less than a solid cylinder's 526 cm3.
+  EXPECT_LT(Volume(mesh), 2e-4);
 }
 
 TEST(Bottle, HalfATurn_DoesNotMapItOntoItself) {

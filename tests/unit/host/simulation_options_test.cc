@@ -5,6 +5,8 @@
 
 #include <string>
 
+#include "disflow/host/stereo_camera.h"
+
 namespace disflow::host {
 namespace {
 
@@ -18,7 +20,9 @@ TEST(SimulationOptions, EveryKey_ReachesItsField) {
   SimulationOptions options;
   const hal::Fault fault = Parse(
       "sim:bottle?motion=flying&noise=kinect&seed=7&frames=12&fps=60&width=320&height=240&focal="
-      "250&occluder=arm&drop=0.25&camera=moving&mask=sloppy&format=z16",
+      "250&occluder=arm&drop=0.25&repeat=0.05&jitter_ms=3&camera=moving&mask=sloppy&mask_delay=2&"
+      "mask_"
+      "grow_px=+6&mask_flicker=0.1&format=z16",
       options);
   ASSERT_TRUE(fault.ok()) << fault.message;
   EXPECT_EQ(options.object, ObjectKind::kBottle);
@@ -32,6 +36,11 @@ TEST(SimulationOptions, EveryKey_ReachesItsField) {
   EXPECT_EQ(options.focal_px, 250.0);
   EXPECT_EQ(options.occluder, OccluderKind::kArm);
   EXPECT_EQ(options.drop, 0.25);
+  EXPECT_EQ(options.repeat, 0.05);
+  EXPECT_EQ(options.jitter_ms, 3.0);
+  EXPECT_EQ(options.mask_delay, 2);
+  EXPECT_EQ(options.mask_grow_px, 6);
+  EXPECT_EQ(options.mask_flicker, 0.1);
   EXPECT_EQ(options.camera, CameraKind::kMoving);
   EXPECT_EQ(options.mask, MaskKind::kSloppy);
   EXPECT_EQ(options.format, DepthFormat::kUint16);
@@ -51,6 +60,18 @@ TEST(SimulationOptions, UsualCamera_IsFastYcbsScaledToTheWidth) {
   EXPECT_EQ(camera.fx_px, camera.fy_px);
   EXPECT_EQ(camera.cx_px, 320.0F);
   EXPECT_EQ(camera.cy_px, 180.0F);
+}
+
+TEST(SimulationOptions, MissingOpenCv_IsNamed) {
+  SimulationOptions options;
+  const hal::Fault fault = Parse("sim:mug?noise=stereo", options);
+  if (StereoIsAvailable()) {
+    EXPECT_TRUE(fault.ok()) << fault.message;
+    EXPECT_EQ(options.noise, NoiseKind::kStereo);
+    return;
+  }
+  EXPECT_EQ(fault.status, Status::kUnsupported);
+  EXPECT_NE(std::string(fault.message).find("without OpenCV"), std::string::npos) << fault.message;
 }
 
 struct BadAddress {
@@ -84,6 +105,11 @@ INSTANTIATE_TEST_SUITE_P(
                     BadAddress{"NegativeSeed", "sim:box?seed=-1", "seed=-1", "0 to"},
                     BadAddress{"NoFrames", "sim:box?frames=0", "frames=0", "1 to"},
                     BadAddress{"FramesNoNumber", "sim:box?frames=10x", "frames=10x", "1 to"},
+                    BadAddress{"UnknownNoise", "sim:box?noise=real", "noise=real", "stereo"},
+                    BadAddress{"AllRepeated", "sim:box?repeat=1", "repeat=1", "0 to 0.9"},
+                    BadAddress{"EarlyMask", "sim:box?mask_delay=-1", "mask_delay=-1", "0 to 30"},
+                    BadAddress{"TwoSigns", "sim:box?mask_grow_px=+-3", "mask_grow_px", "-40 to 40"},
+                    BadAddress{"UnknownMask", "sim:box?mask=leaky", "mask=leaky", "leaking"},
                     BadAddress{"DropNoNumber", "sim:box?drop=nan", "drop=nan", "0 to 0.9"},
                     BadAddress{"AllDropped", "sim:box?drop=1", "drop=1", "0 to 0.9"},
                     BadAddress{"TooWide", "sim:box?width=99999999999", "width", "4096"},

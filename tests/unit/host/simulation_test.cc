@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "box_ray.h"
+#include "disflow/host/stereo_camera.h"
 
 namespace disflow::host {
 namespace {
@@ -81,7 +82,9 @@ TEST(Simulation, Background_IsBehindTheObjectEverywhere) {
 }
 
 TEST(Simulation, SameOptions_GiveTheSameBytesInAnyOrder) {
-  for (const NoiseKind noise : {NoiseKind::kClean, NoiseKind::kD415, NoiseKind::kKinect}) {
+  for (const NoiseKind noise : {NoiseKind::kClean, NoiseKind::kWhite, NoiseKind::kD415,
+                                NoiseKind::kKinect, NoiseKind::kTof, NoiseKind::kStereo}) {
+    if (noise == NoiseKind::kStereo && !StereoIsAvailable()) continue;
     SimulationOptions options = Small();
     options.noise = noise;
     Simulation first = Make(options);

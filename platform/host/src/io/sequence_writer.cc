@@ -35,8 +35,8 @@ hal::Fault MakeFolder(const fs::path& folder) {
 
 /// Everything that a sequence consists of, and nothing else that may be in its folder.
 hal::Fault RemoveSequence(const fs::path& dir) {
-  for (const char* name :
-       {kDepthFolder, kMaskFolder, kTruthFolder, kCameraFile, kDataFile, kWorldPoseFile}) {
+  for (const char* name : {kDepthFolder, kMaskFolder, kInfraredFolder, kTruthFolder, kCameraFile,
+                           kDataFile, kWorldPoseFile}) {
     std::error_code error;
     fs::remove_all(dir / name, error);
     if (error) {
@@ -177,18 +177,28 @@ hal::Fault SequenceWriter::AddMaskOf(std::string_view object, std::string_view s
 
 hal::Fault SequenceWriter::WriteMask(std::string_view object, std::string_view set,
                                      const MaskView& mask) {
-  if (frames_ == 0) return hal::MakeFault(Status::kNotOpen, "sequence writer: no frame added yet");
-  if (mask.width_px != width_px_ || mask.height_px != height_px_) {
-    return hal::MakeFault(Status::kMaskSizeMismatch, "%s: mask of frame %d is %dx%d, depth %dx%d",
-                          dir_.c_str(), frames_ - 1, mask.width_px, mask.height_px, width_px_,
-                          height_px_);
-  }
-  const fs::path folder = dir_ / kMaskFolder / set;
-  const hal::Fault fault = MakeFolder(folder);
-  if (!fault.ok()) return fault;
   const std::string name =
       std::string(object) + "_" + std::to_string(frames_ - 1) + kImageExtension;
-  return WriteGray8Png(folder / name, mask.data, width_px_, height_px_, mask.stride_bytes);
+  return WriteImage(fs::path(kMaskFolder) / set / name, mask);
+}
+
+hal::Fault SequenceWriter::AddInfrared(const MaskView& image) {
+  return WriteImage(fs::path(kInfraredFolder) / (std::to_string(frames_ - 1) + kImageExtension),
+                    image);
+}
+
+/// @param file Inside of the sequence's folder.
+hal::Fault SequenceWriter::WriteImage(const fs::path& file, const MaskView& image) {
+  if (frames_ == 0) return hal::MakeFault(Status::kNotOpen, "sequence writer: no frame added yet");
+  if (image.width_px != width_px_ || image.height_px != height_px_) {
+    return hal::MakeFault(Status::kMaskSizeMismatch, "%s: mask of frame %d is %dx%d, depth %dx%d",
+                          dir_.c_str(), frames_ - 1, image.width_px, image.height_px, width_px_,
+                          height_px_);
+  }
+  const fs::path path = dir_ / file;
+  const hal::Fault fault = MakeFolder(path.parent_path());
+  if (!fault.ok()) return fault;
+  return WriteGray8Png(path, image.data, width_px_, height_px_, image.stride_bytes);
 }
 
 SequenceWriter::TruthFiles& SequenceWriter::TruthOf(std::string_view name) {

@@ -13,6 +13,10 @@ const Vec3d& ProjectorPlace_m() {
   return place_m;
 }
 
+/// Disparity after which the grain is another one.
+constexpr double kSpeckleLayer_px = 0.25;
+constexpr float kBaseline_m = 0.055F;
+
 void AddDot(double x, double y, double std_px, float brightness, int width, int height,
             std::vector<float>& image) {
   const int reach = static_cast<int>(std::ceil(3.5 * std_px));
@@ -73,6 +77,8 @@ InfraredEye::InfraredEye(const EyeModel& model, std::uint64_t seed, int number)
     : model_(model),
       seed_(seed),
       number_(number),
+      speckle_({.kernel_std_px = 0.5, .rest_correlation = 1.0, .layer_px = kSpeckleLayer_px},
+               model.width_px, model.height_px, 2 * seed + static_cast<std::uint64_t>(number)),
       renderer_(model.camera, model.width_px, model.height_px),
       light_(renderer_.labels().size()),
       blurred_(light_.size()),
@@ -81,6 +87,7 @@ InfraredEye::InfraredEye(const EyeModel& model, std::uint64_t seed, int number)
 void InfraredEye::Shade(const SceneView& scene, const SurfacePaint& paint, const DotPattern& dots) {
   const LightOfImage light(model_.camera, renderer_, scene.surfaces, paint, model_.eye_m);
   const Vec3d lamp = Vec3d(-0.3, -0.8, -0.5).normalized();  // above, on the left
+  const std::span<const float> inverse_depth = renderer_.inverse_depth_per_m();
   std::size_t pixel = 0;
   for (int v = 0; v < model_.height_px; ++v) {
     for (int u = 0; u < model_.width_px; ++u, ++pixel) {
@@ -93,7 +100,10 @@ void InfraredEye::Shade(const SceneView& scene, const SurfacePaint& paint, const
       const double facing = std::max(0.0, -seen.normal.dot(x_p_m)) / x_p_m.norm();
       const double lit = model_.dots * facing * kBrightnessAt_m * kBrightnessAt_m /
                          x_p_m.squaredNorm() * static_cast<double>(dots.At(x_p_m));
-      light_[pixel] = static_cast<float>(seen.albedo * (room + lit));
+      const float disparity_px = model_.camera.fx_px * kBaseline_m * inverse_depth[pixel];
+      const double grain =
+          1.0 + model_.speckle * static_cast<double>(speckle_.At(u, v, disparity_px));
+      light_[pixel] = static_cast<float>(seen.albedo * (room + lit) * grain);
     }
   }
 }

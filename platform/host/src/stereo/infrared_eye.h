@@ -33,10 +33,12 @@ struct EyeModel {
   int height_px = 0;
   Vec3d eye_m = Vec3d::Zero();  ///< In the left camera's frame.
   double blur_std_px = 0.6;
-  double ambient = 70.0;     ///< Grey levels of a white surface, lit by the room.
-  double dots = 75.0;        ///< Of a dot's middle on a white surface, facing at 0.7 m.
-  double shot_noise = 0.03;  ///< Variance per grey level.
-  double read_noise = 1.0;   ///< Grey levels.
+  double ambient = 70.0;      ///< Grey levels of a white surface, lit by the room.
+  double dots = 75.0;         ///< Of a dot's middle on a white surface, facing at 0.7 m.
+  double shot_noise = 0.013;  ///< Variance per grey level.
+  double read_noise = 0.6;    ///< Grey levels.
+  /// Share of the light. The laser's grain differs between the eyes and stays while nothing moves.
+  double speckle = 0.05;
 };
 
 /// One infrared camera of a stereo pair.
@@ -58,6 +60,7 @@ class InfraredEye {
   std::uint64_t seed_;
   int number_;
   NormalTable normal_;
+  ImageNoise speckle_;
   DepthRenderer renderer_;
   std::vector<float> light_;
   std::vector<float> blurred_;

@@ -23,12 +23,13 @@ int LargestDisparity(const PinholeCamera& camera) {
 SemiGlobalSettings MatcherOf(NoiseKind noise, int disparities) {
   SemiGlobalSettings settings;
   settings.num_disparities = disparities;
+  settings.block_size = 3;
+  settings.p1 = 40;
+  settings.p2 = 600;
+  settings.uniqueness_ratio = 0;
+  settings.disp12_max_diff = 2;
   if (noise == NoiseKind::kStereoRaw) {
-    // Small differences between disparities cost next to nothing, and little is checked.
-    settings.block_size = 5;
-    settings.p1 = 8 * 25;
-    settings.p2 = 32 * 25;
-    settings.uniqueness_ratio = 0;
+    settings.disp12_max_diff = 1;
     settings.speckle_window_size = 0;
   }
   return settings;

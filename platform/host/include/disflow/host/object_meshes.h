@@ -18,6 +18,12 @@ namespace disflow::host {
 [[nodiscard]] TriangleMesh MakeCan();
 /// Plain torus of 0.12 m outer diameter and 0.04 m thickness.
 [[nodiscard]] TriangleMesh MakeDoughnut();
+/// Box 0.16 x 0.07 x 0.2 m whose edges and corners are rounded by 4 mm, as of scanned boxes.
+[[nodiscard]] TriangleMesh MakeRoundedBox();
+/// Flat box 0.09 x 0.075 x 0.03 m, rounded by 2 mm.
+[[nodiscard]] TriangleMesh MakeFlatBox();
+/// Mug of 84 mm diameter and 95 mm height, hollow, with a handle along +x.
+[[nodiscard]] TriangleMesh MakeMug();
 /// Capsule about the z axis, from z = 0 (the tip) to z = -length.
 [[nodiscard]] TriangleMesh MakeCapsule(double radius_m, double length_m);
 

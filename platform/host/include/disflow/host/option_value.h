@@ -47,13 +47,14 @@ template <class Value>
                         text.data(), ListChoices(choices).c_str());
 }
 
-/// A number within [min, max].
+/// A number within [min, max]; a plus sign before it is allowed.
 /// @param value Unchanged unless the result is ok.
 template <class Number>
 [[nodiscard]] hal::Fault ParseNumber(std::string_view key, std::string_view text, Number min,
                                      Number max, Number& value) {
   Number parsed{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), parsed);
+  const std::size_t plus = text.size() > 1 && text[0] == '+' && text[1] != '-' ? 1 : 0;
+  const auto [end, error] = std::from_chars(text.data() + plus, text.data() + text.size(), parsed);
   // Written so that NaN fails.
   const bool in_range = parsed >= min && parsed <= max;
   if (error != std::errc{} || end != text.data() + text.size() || !in_range) {

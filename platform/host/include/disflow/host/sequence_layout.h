@@ -12,6 +12,7 @@ inline constexpr const char* kDataFile = "data.txt";
 inline constexpr const char* kDepthFolder = "depth";
 inline constexpr const char* kMaskedDepthFolder = "masked_depth";
 inline constexpr const char* kMaskFolder = "masks";
+inline constexpr const char* kInfraredFolder = "infrared";
 inline constexpr const char* kTruthFolder = "gt";
 /// In kTruthFolder, or in a folder of the object's name in it.
 inline constexpr const char* kPoseFile = "poses.txt";

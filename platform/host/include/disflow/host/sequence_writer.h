@@ -16,7 +16,7 @@
 namespace disflow::host {
 
 /// Writes a sequence in the Fast-YCB layout: cam_K.json, depth/I.float, masks/SET/OBJECT_I
-/// .png, data.txt; if given also gt/poses.txt, gt/velocities.txt and T_wc.txt.
+/// .png, data.txt; if given also gt/poses.txt, gt/velocities.txt, infrared/I.png and T_wc.txt.
 ///
 /// T_wc.txt is this project's addition: one line `x y z nx ny nz theta` per frame, camera in world.
 /// So is a folder gt/OBJECT for each of several objects, in place of gt alone.
@@ -38,6 +38,8 @@ class SequenceWriter {
   /// The mask of one of several objects: 255 where mask.label is.
   [[nodiscard]] hal::Fault AddMaskOf(std::string_view object, std::string_view set,
                                      const MaskView& mask);
+  /// The infrared image of the frame that was added last, as large as the depth image.
+  [[nodiscard]] hal::Fault AddInfrared(const MaskView& image);
   /// Pose and twist of the frame that was added last.
   [[nodiscard]] hal::Fault AddTruth(const RigidState<Camera, Object>& object) {
     return AddTruthOf("", object);
@@ -61,6 +63,7 @@ class SequenceWriter {
 
   [[nodiscard]] hal::Fault WriteMask(std::string_view object, std::string_view set,
                                      const MaskView& mask);
+  [[nodiscard]] hal::Fault WriteImage(const std::filesystem::path& file, const MaskView& image);
   [[nodiscard]] TruthFiles& TruthOf(std::string_view name);
   [[nodiscard]] hal::Fault WriteCamera(const DepthFrame& frame);
   [[nodiscard]] hal::Fault WriteDepth(const DepthView& depth);

@@ -9,6 +9,7 @@
 #include "disflow/host/camera_motion.h"
 #include "disflow/host/depth_camera.h"
 #include "disflow/host/depth_renderer.h"
+#include "disflow/host/mask_disturbance.h"
 #include "disflow/host/motion.h"
 #include "disflow/host/occluding_arm.h"
 #include "disflow/host/simulation_options.h"
@@ -47,9 +48,19 @@ class Simulation {
   /// Takes image `index` (0 to frames - 1). The views stay valid until the next call.
   void Render(int index, DepthFrame& frame);
 
+  /// Whether the image is the one before again, under a stamp of its own.
+  [[nodiscard]] bool IsRepeated(int index) const {
+    return repeated_[static_cast<std::size_t>(index)];
+  }
+
   /// Masks of the image rendered last: 255, or with several objects the number of each from 1 on.
   [[nodiscard]] MaskView gt_mask() const { return ViewOf(gt_mask_); }
   [[nodiscard]] MaskView sloppy_mask() const { return ViewOf(sloppy_mask_); }
+  /// What the frame brings: of the kind that the options name, with all that goes wrong with it. No
+  /// data where it is missing.
+  [[nodiscard]] MaskView mask() const;
+  /// Whether anything goes wrong with the masks but what SloppyMask does.
+  [[nodiscard]] bool HasDisturbedMask() const;
 
   /// The left infrared image of the image rendered last; no data unless the camera has one.
   [[nodiscard]] MaskView infrared() const { return ViewOf(depth_camera_->infrared()); }
@@ -68,6 +79,7 @@ class Simulation {
     Workspace workspace;
     std::unique_ptr<const ObjectMotion> motion;
     SloppyMask sloppy;
+    MaskDisturbance disturbance;
   };
 
   [[nodiscard]] static std::vector<Body> MakeBodies(const SimulationOptions& options,
@@ -79,6 +91,8 @@ class Simulation {
                     DepthRenderer& renderer) const;
   [[nodiscard]] std::vector<PaintedSurface> Surfaces(int index) const;
   void DrawMasks(int index);
+  void DisturbMasks(int index);
+  [[nodiscard]] int SourceOf(int index) const;
   [[nodiscard]] Plane TableAt(double time_s, const FrameTruth& truth) const;
   [[nodiscard]] DepthView DepthToDeliver();
   [[nodiscard]] MaskView ViewOf(std::span<const std::uint8_t> mask) const;
@@ -91,11 +105,16 @@ class Simulation {
   std::optional<TouchingHand> hand_;
   DepthRenderer renderer_;
   std::unique_ptr<DepthCamera> depth_camera_;
+  std::optional<DepthRenderer> late_;  ///< What late masks show.
   std::vector<bool> dropped_;
+  std::vector<bool> repeated_;
+  std::vector<StampNs> jitter_ns_;
   std::vector<float> depth_m_;
   std::vector<std::uint16_t> depth_mm_;
   std::vector<std::uint8_t> gt_mask_;
   std::vector<std::uint8_t> sloppy_mask_;
+  std::vector<std::uint8_t> disturbed_mask_;
+  bool mask_missing_ = false;
   std::vector<std::uint8_t> exact_;  ///< Mask of one object.
 };
 

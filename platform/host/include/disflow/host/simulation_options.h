@@ -12,7 +12,16 @@
 
 namespace disflow::host {
 
-enum class ObjectKind : std::uint8_t { kBox, kBottle, kCan, kDoughnut, kObjFile };
+enum class ObjectKind : std::uint8_t {
+  kBox,
+  kBottle,
+  kCan,
+  kDoughnut,
+  kRoundedBox,
+  kFlatBox,
+  kMug,
+  kObjFile
+};
 enum class MotionKind : std::uint8_t {
   kStatic,
   kModerate,   ///< Peaks of 0.2 m/s and 90 deg/s.
@@ -41,7 +50,12 @@ enum class SupportKind : std::uint8_t {
   kTable,  ///< The object's lowest point rests on a table top for a second; then it is lifted off.
 };
 enum class CameraKind : std::uint8_t { kStatic, kMoving };
-enum class MaskKind : std::uint8_t { kGt, kSloppy, kNone };
+enum class MaskKind : std::uint8_t {
+  kGt,
+  kSloppy,   ///< See SloppyMask.
+  kLeaking,  ///< Takes in a piece of what is beside the object: table, wall, hand.
+  kNone
+};
 
 /// How many objects may move before the camera at once.
 inline constexpr std::size_t kMaxSimulatedObjects = 4;
@@ -68,9 +82,14 @@ struct SimulationOptions {
   SupportKind support = SupportKind::kNone;
   /// The object that is not there from 1 to 2 s, from 1 on; 0 = none.
   int hide = 0;
-  double drop = 0.0;  ///< Share of frames that are lost; never the first.
+  double drop = 0.0;    ///< Share of frames that are lost; never the first.
+  double repeat = 0.0;  ///< Share of frames that show the image before them again; never the first.
+  double jitter_ms = 0.0;  ///< Stamps are off by up to this, and by less than half a period.
   CameraKind camera = CameraKind::kStatic;
   MaskKind mask = MaskKind::kGt;
+  int mask_delay = 0;         ///< The mask is that of so many frames before.
+  int mask_grow_px = 0;       ///< The mask reaches too far by this, or not far enough (< 0).
+  double mask_flicker = 0.0;  ///< Share of masks that are missing, or miss a large piece.
   DepthFormat format = DepthFormat::kFloat32;
 };
 
@@ -82,7 +101,8 @@ struct SimulationOptions {
 [[nodiscard]] hal::Fault SetSimulationOption(std::string_view key, std::string_view value,
                                              SimulationOptions& options);
 
-/// @param name box, bottle, can, doughnut or obj:FILE; several joined by +, the nearest first.
+/// @param name box, bottle, can, doughnut, rounded-box, flat-box, mug or obj:FILE; several joined
+/// by +, the nearest first.
 [[nodiscard]] hal::Fault SetSimulationObject(std::string_view name, SimulationOptions& options);
 
 /// Reads `sim:OBJECT?key=value&...`.

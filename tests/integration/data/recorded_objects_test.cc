@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "child_process.h"
+#include "estimate_csv.h"
+#include "evaluation.h"
+#include "scratch_folder.h"
+#include "test_data.h"
+
+/// @file
+/// Real objects before a real camera, tracked by disflow_track and judged against their reference.
+
+namespace disflow::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What a recording has to give today; tightened as the tracker gets better.
+struct Recording {
+  const char* name;
+  const char* folder;
+  const char* mask;
+  std::size_t least_measured;  ///< Frames whose status is "ok", of 99.
+  double most_add_m;           ///< Mean ADD over all frames.
+};
+
+constexpr std::size_t kFrames = 99;
+constexpr Recording kRecordings[] = {
+    {"DragonGivenMask", "realsense_dragon", "gt", 99, 0.0013},
+    {"DragonSloppyMask", "realsense_dragon", "sloppy", 99, 0.0013},
+    {"MovedDragonGivenMask", "realsense_dragon_moved", "gt", 20, 0.030},
+    {"MovedDragonSloppyMask", "realsense_dragon_moved", "sloppy", 5, 0.045},
+};
+
+void PrintTo(const Recording& recording, std::ostream* stream) { *stream << recording.name; }
+
+class RecordedObject : public ScratchFolderTest, public testing::WithParamInterface<Recording> {};
+
+TEST_P(RecordedObject, IsMeasuredInSoManyFramesAndSoWell) {
+  const Recording& recording = GetParam();
+  const fs::path folder = TestData(recording.folder);
+  DISFLOW_SKIP_WITHOUT(folder);
+  const Outcome tracked =
+      RunTrack({"--sensor", "replay:" + folder.string() + "?mask=" + recording.mask, "--csv",
+                Path("run.csv"), "--headless"},
+               scratch());
+  ASSERT_EQ(tracked.exit_status, 0) << tracked.err;
+  const std::vector<apps::EstimateRow> rows = apps::LoadEstimates(Path("run.csv"), kFrames).rows;
+  std::size_t measured = 0;
+  for (const apps::EstimateRow& row : rows) measured += row.status == "ok" ? 1U : 0U;
+  const apps::Report report = apps::Evaluate({.sequence = folder,
+                                              .csv = Path("run.csv"),
+                                              .model = folder / "gt" / "model.obj",
+                                              .mesh = {}});
+  std::printf("%s: %zu of %zu frames measured, mean ADD %.2f mm\n", recording.name, measured,
+              rows.size(), 1e3 * report.poses.add_m.mean);
+  EXPECT_GE(measured, recording.least_measured);
+  EXPECT_LE(report.poses.add_m.mean, recording.most_add_m);
+}
+
+INSTANTIATE_TEST_SUITE_P(RealSense, RecordedObject, testing::ValuesIn(kRecordings),
+                         [](const testing::TestParamInfo<Recording>& test) {
+                           return test.param.name;
+                         });
+
+}  // namespace
+}  // namespace disflow::test
