@@ -53,7 +53,7 @@ hal::Fault BoardConnection::Track(const DepthFrame& frame, std::int64_t timeout_
 
 hal::Fault BoardConnection::TrackPackets(const std::vector<std::vector<std::byte>>& packets,
                                          std::int64_t timeout_ns, BoardAnswer& answer) {
-  ++sequence_;
+  awaited_ = ++sequence_;
   answer = {};
   for (const std::vector<std::byte>& packet : packets) {
     const hal::Fault fault = SendAll(packet);
@@ -64,7 +64,8 @@ hal::Fault BoardConnection::TrackPackets(const std::vector<std::vector<std::byte
 
 hal::Fault BoardConnection::WaitUntilReady(std::int64_t timeout_ns) {
   EncodedPacket buffer;
-  const hal::Fault fault = SendAll(EncodePoll(++sequence_, buffer));
+  awaited_ = ++sequence_;
+  const hal::Fault fault = SendAll(EncodePoll(sequence_, buffer));
   BoardAnswer answer;
   return fault.ok() ? Await(timeout_ns, true, answer) : fault;
 }
@@ -86,6 +87,7 @@ hal::Fault BoardConnection::SendAll(std::span<const std::byte> bytes) {
 hal::Fault BoardConnection::AwaitRecorded(std::uint32_t sequence, std::int64_t timeout_ns,
                                           BoardAnswer& answer) {
   sequence_ = sequence;
+  awaited_ = sequence;
   answer = {};
   return Await(timeout_ns, false, answer);
 }
@@ -141,7 +143,10 @@ bool BoardConnection::Take(const hal::mavlink::FrameView& frame, BoardAnswer& an
     answer.tracked = true;
     return false;
   }
-  if (DecodePayload(frame, answer.ready) == Status::kOk) return answer.ready.sequence == sequence_;
+  if (DecodePayload(frame, answer.ready) == Status::kOk) {
+    // The answer to any poll since then will do: a slow controller is always behind the newest.
+    return answer.ready.sequence - awaited_ <= sequence_ - awaited_;
+  }
   if (DecodePayload(frame, answer.status) != Status::kOk) {
     (void)DecodePayload(frame, answer.timing);  // other messages are of no interest here
   }

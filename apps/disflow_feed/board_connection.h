@@ -71,7 +71,8 @@ class BoardConnection {
   hal::mavlink::FrameDecoder decoder_;
   std::array<std::byte, 1024> received_{};
   std::span<const std::byte> rest_;  ///< Of received_, not decoded yet.
-  std::uint32_t sequence_ = 0;
+  std::uint32_t sequence_ = 0;       ///< Of the frame or poll that was sent last.
+  std::uint32_t awaited_ = 0;        ///< Of the frame or poll that is to be answered.
 };
 
 }  // namespace disflow::apps
