@@ -46,7 +46,9 @@ void Add(const std::string& option, const std::string& name, std::vector<Output>
 /// A file that takes its name only when it is complete, and the name that it has until then.
 void AddAtomic(const std::string& option, const std::string& name, std::vector<Output>& outputs) {
   Add(option, name, outputs);
-  if (!name.empty()) outputs.push_back({option, name, Resolve(PartPath(name))});
+  std::error_code error;
+  const bool is_file = !fs::exists(name, error) || fs::is_regular_file(name, error);
+  if (!name.empty() && is_file) outputs.push_back({option, name, Resolve(PartPath(name))});
 }
 
 std::vector<Output> OutputsOf(const Options& options) {

@@ -50,6 +50,9 @@ const std::map<std::string, hal::mavlink::MavFrame> kWorlds = {
     {"frd", hal::mavlink::MavFrame::kLocalFrd},
     {"flu", hal::mavlink::MavFrame::kLocalFlu}};
 
+/// The parser turns numbers that are too large into the largest one.
+constexpr std::int64_t kMostFrames = 1'000'000'000'000;
+
 void AddInput(CLI::App& app, Options& options, SettingSources& settings) {
   app.add_option("--sensor", options.sensor, "Where depth images come from, see below")
       ->type_name("URI");
@@ -61,7 +64,7 @@ void AddInput(CLI::App& app, Options& options, SettingSources& settings) {
       ->transform(CLI::CheckedTransformer(kRates).description(""))
       ->type_name("max|realtime|live");
   app.add_option("--frames", options.frames, "Stop after this many frames [all]")
-      ->check(CLI::Validator(CLI::PositiveNumber).description(""))
+      ->check(CLI::Range(std::int64_t{1}, kMostFrames).description(""))
       ->type_name("N");
   app.add_option("--profile", options.profile, "Memory and image size, see docs/memory.md [edge]")
       ->transform(CLI::CheckedTransformer(kProfiles).description(""))
@@ -234,6 +237,10 @@ void CheckCameraPose(const Options& options) {
 }
 
 void CheckMaskStream(const Options& options) {
+  // The range of the option itself lets NaN pass.
+  if (std::isnan(options.mask_max_age_s)) {
+    throw Failure(kWrongUsage, "--mask-age nan is not a number of seconds");
+  }
   if (options.mask_stream.empty()) return;
   Require(posix::CheckMaskName(options.mask_stream), kWrongUsage);
 }

@@ -73,6 +73,7 @@ TEST_F(TrajectoryCsvTest, AnyFloat_IsReadBackToTheLastBit) {
   std::vector<FrameResult> results(200);
   for (FrameResult& result : results) {
     Estimate& estimate = result.estimate;
+    estimate.status = Status::kOk;
     for (int i = 0; i < 3; ++i) {
       estimate.twist.linear_mps[i] = any();
       estimate.twist.angular_rps[i] = any();
@@ -114,7 +115,7 @@ TEST_F(TrajectoryCsvTest, LongestValues_FitIntoTheRow) {
   Estimate& estimate = result.estimate;
   constexpr float kLong = -1.17549449e-38F;
   estimate.stamp_ns = std::numeric_limits<std::int64_t>::min();
-  estimate.status = Status::kRegistrationFailed;
+  estimate.status = Status::kOk;  // of other frames some numbers are left out
   estimate.state = TrackingState::kInitialising;
   estimate.twist.linear_mps.setConstant(kLong);
   estimate.twist.angular_rps.setConstant(kLong);
