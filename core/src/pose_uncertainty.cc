@@ -41,8 +41,8 @@ float GeometricMeanVariance(const Mat3& covariance) noexcept {
 
 }  // namespace
 
-PoseUncertainty Uncertainty(const RegistrationInformation& information,
-                            float gradient_std) noexcept {
+PoseUncertainty FindPoseUncertainty(const RegistrationInformation& information,
+                                    float gradient_std) noexcept {
   PoseUncertainty result;
   const Eigen::LLT<Mat6> cholesky(WithFloor(information.total));
   if (cholesky.info() != Eigen::Success || !information.total.allFinite()) return result;

@@ -45,8 +45,8 @@ class BallInView : public ::testing::Test {
   [[nodiscard]] ModelAgreement At(const Vec3& center_c) const {
     const DepthView view{depth_m_.data(),       kWidth_px, kHeight_px, 4 * kWidth_px,
                          DepthFormat::kFloat32, 0.001F};
-    return Compare(*model_, PoseCameraFromObject(Mat3::Identity(), center_c).Inverse(), kCamera,
-                   DepthReader(view, 0.1F, 10.0F));
+    return CompareWithImage(*model_, PoseCameraFromObject(Mat3::Identity(), center_c).Inverse(),
+                            kCamera, DepthReader(view, 0.1F, 10.0F));
   }
 
   std::unique_ptr<EdgeField> model_;

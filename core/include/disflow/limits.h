@@ -1,10 +1,54 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <concepts>
+
 /// @file
 /// Capacities, fixed at compile time. A profile lists them all; `Tracker<Profile>` owns exactly
 /// that much memory by value. docs/memory.md has the byte table. Settings that may change at run
 /// time are in config.h.
+
+namespace disflow {
+
+/// What a profile must have. Each member is a requirement of its own, so that the compiler names
+/// the one that is missing.
+// clang-format off
+template <class Profile>
+concept CapacityProfile =
+    requires { { Profile::kName } -> std::convertible_to<const char*>; } &&
+    requires { { Profile::kMaxImageWidth } -> std::convertible_to<int>; } &&
+    requires { { Profile::kMaxImageHeight } -> std::convertible_to<int>; } &&
+    requires { { Profile::kMaxRuns } -> std::convertible_to<int>; } &&
+    requires { { Profile::kMaxBlocks } -> std::convertible_to<int>; } &&
+    requires { { Profile::kMaxSurfaceSamples } -> std::convertible_to<int>; } &&
+    requires { { Profile::kMaxEdgePoints } -> std::convertible_to<int>; } &&
+    requires { { Profile::kMaxNodes } -> std::convertible_to<int>; } &&
+    requires { { Profile::kMaxClusters } -> std::convertible_to<int>; } &&
+    requires { { Profile::kMaxSamplesPerCluster } -> std::convertible_to<int>; } &&
+    requires { { Profile::kMaxTrainingSamples } -> std::convertible_to<int>; } &&
+    requires { { Profile::kMaxModelEdges } -> std::convertible_to<int>; } &&
+    requires { { Profile::kMaxSeenViews } -> std::convertible_to<int>; } &&
+    requires { { Profile::kSeenCells } -> std::convertible_to<int>; } &&
+    requires { { Profile::kMaxRegistrationPoints } -> std::convertible_to<int>; } &&
+    // Positive, and within the 16-bit numbers that elements of the stores are counted by.
+    (Profile::kMaxImageWidth > 0 && Profile::kMaxImageWidth <= 32767) &&
+    (Profile::kMaxImageHeight > 0 && Profile::kMaxImageHeight <= 32767) &&
+    (Profile::kMaxRuns > 0 && Profile::kMaxRuns <= 65535) &&
+    (Profile::kMaxBlocks > 0) &&
+    (Profile::kMaxSurfaceSamples > 0 && Profile::kMaxSurfaceSamples <= 52428) &&
+    (Profile::kMaxEdgePoints > 0) &&
+    (Profile::kMaxNodes > 0 && Profile::kMaxNodes < 65535) &&
+    (Profile::kMaxClusters > 0 && Profile::kMaxClusters < 65535) &&
+    (Profile::kMaxSamplesPerCluster > 0) &&
+    (Profile::kMaxTrainingSamples > 0) &&
+    (Profile::kMaxModelEdges > 0) &&
+    (Profile::kMaxSeenViews > 0) &&
+    (Profile::kSeenCells > 0) &&
+    // The search for a pose compares starts on two fifths of them.
+    (Profile::kMaxRegistrationPoints >= 3);
+// clang-format on
+
+}  // namespace disflow
 
 namespace disflow::profiles {
 

@@ -61,7 +61,7 @@ inline constexpr int kMaxStepsPerCell = 16;
 
 /// Scratch memory of ExtractSurface(): the distances on one octree cell's grid, and vertices that
 /// several triangles share.
-template <class Limits>
+template <CapacityProfile Limits>
 struct SurfaceWorkspace {
   static constexpr int kCornersPerEdge = kMaxStepsPerCell + 1;
   static constexpr int kCachedVertices = 512;
@@ -83,7 +83,7 @@ struct SurfaceWorkspace {
 /// that the surface is closed wherever it was seen and open elsewhere.
 /// @return kNotInitialised for an empty model, kInvalidConfig if an option is not positive and
 /// finite or if the resolution is finer than a cell's sixteenth; the sink is then not called.
-template <class Limits>
+template <CapacityProfile Limits>
 [[nodiscard]] Expected<SurfaceCounts> ExtractSurface(const DistanceField<Limits>& field,
                                                      const SurfaceOptions& options,
                                                      SurfaceWorkspace<Limits>& workspace,

@@ -16,7 +16,7 @@
 
 namespace disflow {
 
-template <class Limits>
+template <CapacityProfile Limits>
 class SurfaceExtractor {
  public:
   using Workspace = SurfaceWorkspace<Limits>;
@@ -232,7 +232,7 @@ class SurfaceExtractor {
   SurfaceCounts counts_;
 };
 
-template <class Limits>
+template <CapacityProfile Limits>
 Expected<SurfaceCounts> ExtractSurface(const DistanceField<Limits>& field,
                                        const SurfaceOptions& options,
                                        SurfaceWorkspace<Limits>& workspace,

@@ -4,16 +4,12 @@
 #include "disflow/config.h"
 #include "disflow/depth/depth_frame.h"
 #include "disflow/depth/depth_reader.h"
-#include "disflow/depth/edge_sampler.h"
 #include "disflow/depth/seen_space.h"
 #include "disflow/depth/segmenter.h"
 #include "disflow/depth/surface_sampler.h"
 #include "disflow/estimate.h"
 #include "disflow/field/distance_field.h"
 #include "disflow/field/edge_map.h"
-#include "disflow/flow/model_agreement.h"
-#include "disflow/flow/pose_search.h"
-#include "disflow/flow/pose_uncertainty.h"
 #include "disflow/flow/registration.h"
 #include "disflow/flow/tracking_monitor.h"
 #include "disflow/flow/twist_filter.h"
@@ -24,12 +20,14 @@
 
 namespace disflow {
 
+struct ModelAgreement;
+
 /// Tracks and reconstructs one rigid object (the paper's section V). Owns all of its memory by
 /// value and never allocates: `static Tracker<profiles::Edge> tracker;` lives in .bss. Not
 /// thread-safe; one instance per object.
 /// @tparam Limits A profile of limits.h. For a profile of your own include tracker_impl.h in one
 /// source file.
-template <class Limits>
+template <CapacityProfile Limits>
 class Tracker {
  public:
   using Field = DistanceField<Limits>;
@@ -134,7 +132,7 @@ class Tracker {
   typename Segmenter<Limits>::Mask object_mask_;
   StageScratch<Segmenter<Limits>, SurfaceSampler<Limits>> scratch_;
   typename SurfaceSampler<Limits>::Samples samples_;
-  typename EdgeSampler<Limits>::Edges edges_;
+  typename Registration<Limits>::Edges edges_;
   Registration<Limits> registration_;
   Field field_;
   EdgeMap<Limits::kMaxModelEdges> model_edges_;

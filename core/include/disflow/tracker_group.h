@@ -21,7 +21,7 @@ struct GroupedObject {
 /// The trackers share nothing but the frame, so none disturbs another, and what one gives does not
 /// depend on the others. Whoever has several cores calls ProcessOne() for different objects from
 /// different threads; the results are the same.
-template <class Limits, int kCount>
+template <CapacityProfile Limits, int kCount>
 class TrackerGroup {
  public:
   static_assert(kCount > 0);

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "disflow/depth/edge_sampler.h"
+#include "disflow/depth/segmenter_impl.h"
 #include "disflow/field/known_surface.h"
+#include "disflow/flow/model_agreement.h"
 #include "disflow/tracker.h"
 #include "disflow/tracker_pose_impl.h"
 
@@ -11,7 +14,7 @@
 
 namespace disflow {
 
-template <class Limits>
+template <CapacityProfile Limits>
 Tracker<Limits>::Tracker(const Config& config) noexcept
     : config_(config), config_issue_(Validate(config)) {
   field_.Start(config_.field);
@@ -20,7 +23,7 @@ Tracker<Limits>::Tracker(const Config& config) noexcept
 }
 
 // Section V, in the order in which the paper tells it.
-template <class Limits>
+template <CapacityProfile Limits>
 Status Tracker<Limits>::Process(const DepthFrame& frame, Estimate& estimate,
                                 StageClock clock) noexcept {
   Begin(frame, estimate);
@@ -56,7 +59,7 @@ Status Tracker<Limits>::Process(const DepthFrame& frame, Estimate& estimate,
   return Finish(status, frame, estimate);
 }
 
-template <class Limits>
+template <CapacityProfile Limits>
 Status Tracker<Limits>::Fuse(const DepthFrame& frame, const PoseObjectFromCamera& T_oc,
                              Estimate& estimate, StageClock clock) noexcept {
   Begin(frame, estimate);
@@ -81,7 +84,7 @@ Status Tracker<Limits>::Fuse(const DepthFrame& frame, const PoseObjectFromCamera
   return Finish(status, frame, estimate);
 }
 
-template <class Limits>
+template <CapacityProfile Limits>
 void Tracker<Limits>::Reset() noexcept {
   if (started_) ++reset_counter_;
   started_ = false;
@@ -91,21 +94,21 @@ void Tracker<Limits>::Reset() noexcept {
   seen_.Start();
 }
 
-template <class Limits>
+template <CapacityProfile Limits>
 void Tracker<Limits>::Begin(const DepthFrame& frame, Estimate& estimate) noexcept {
   estimate = Estimate{};
   estimate.stamp_ns = frame.stamp_ns;
   estimate.rejected.frames = 1;
 }
 
-template <class Limits>
+template <CapacityProfile Limits>
 Status Tracker<Limits>::Check(const DepthFrame& frame) const noexcept {
   if (config_issue_.field != nullptr) return Status::kInvalidConfig;
   if (has_stamp_ && frame.stamp_ns <= last_stamp_ns_) return Status::kStampNotIncreasing;
   return CheckFrame(frame, Limits::kMaxImageWidth, Limits::kMaxImageHeight);
 }
 
-template <class Limits>
+template <CapacityProfile Limits>
 Status Tracker<Limits>::Observe(const DepthFrame& frame, Estimate& estimate,
                                 StageStopwatch& stopwatch, bool doubtful) noexcept {
   has_stamp_ = true;
@@ -141,20 +144,20 @@ Status Tracker<Limits>::Observe(const DepthFrame& frame, Estimate& estimate,
 }
 
 /// The depth image as far as it is within range.
-template <class Limits>
+template <CapacityProfile Limits>
 DepthReader Tracker<Limits>::UsableDepth(const DepthFrame& frame) const noexcept {
   return {frame.depth, config_.segmenter.min_range_m, config_.segmenter.max_range_m};
 }
 
 /// What a frame's depth image says of the model at a pose.
-template <class Limits>
+template <CapacityProfile Limits>
 ModelAgreement Tracker<Limits>::AgreementWith(const DepthFrame& frame,
                                               const PoseObjectFromCamera& T_oc) const noexcept {
-  return Compare(field_, T_oc, frame.camera, UsableDepth(frame));
+  return CompareWithImage(field_, T_oc, frame.camera, UsableDepth(frame));
 }
 
 /// The object frame: axes parallel to the camera's, origin at the first cloud's centroid.
-template <class Limits>
+template <CapacityProfile Limits>
 void Tracker<Limits>::StartObject(const DepthFrame& frame) noexcept {
   Vec3 centroid = Vec3::Zero();
   for (const SurfaceSample& sample : samples_) centroid += sample.position_m;
@@ -164,7 +167,7 @@ void Tracker<Limits>::StartObject(const DepthFrame& frame) noexcept {
           kDefinedPoseVariance);
 }
 
-template <class Limits>
+template <CapacityProfile Limits>
 void Tracker<Limits>::StartAt(StampNs stamp_ns, const PoseObjectFromCamera& T_oc,
                               float variance) noexcept {
   T_oc_ = T_oc;
@@ -179,7 +182,7 @@ void Tracker<Limits>::StartAt(StampNs stamp_ns, const PoseObjectFromCamera& T_oc
 }
 
 /// Takes a known pose for what a registration would have found.
-template <class Limits>
+template <CapacityProfile Limits>
 void Tracker<Limits>::MoveTo(StampNs stamp_ns, const PoseObjectFromCamera& T_oc) noexcept {
   const float known_std = std::sqrt(kKnownPoseVariance);
   T_oc_previous_ = T_oc;
@@ -196,12 +199,12 @@ void Tracker<Limits>::MoveTo(StampNs stamp_ns, const PoseObjectFromCamera& T_oc)
 }
 
 /// Whether a point lies in space that the camera has looked through.
-template <class Limits>
+template <CapacityProfile Limits>
 bool Tracker<Limits>::IsForeign(const Vec3& x_o) const noexcept {
   return seen_.IsFree(x_o, config_.segmenter.free_margin_m);
 }
 
-template <class Limits>
+template <CapacityProfile Limits>
 void Tracker<Limits>::RememberView(const DepthFrame& frame) noexcept {
   const bool everything = !frame.mask.given() && config_.segmenter.grow_region == 0;
   if (everything || config_.segmenter.free_margin_m == 0.0F) return;
@@ -210,7 +213,7 @@ void Tracker<Limits>::RememberView(const DepthFrame& frame) noexcept {
             T_oc_, object_mask_.box());
 }
 
-template <class Limits>
+template <CapacityProfile Limits>
 void Tracker<Limits>::FuseObservations(Estimate& estimate) noexcept {
   const bool first = frame_index_ == 0;
   const int wanted = first ? samples_.size() : std::min(samples_.size(), config_.field.fuse_budget);
@@ -236,7 +239,7 @@ void Tracker<Limits>::FuseObservations(Estimate& estimate) noexcept {
   }
 }
 
-template <class Limits>
+template <CapacityProfile Limits>
 void Tracker<Limits>::Retrain(Estimate& estimate) noexcept {
   const int factor = frame_index_ < kInitialFrames ? kInitialBudgetFactor : 1;
   (void)field_.Retrain(factor * config_.field.retrain_budget, estimate.rejected);
@@ -244,7 +247,7 @@ void Tracker<Limits>::Retrain(Estimate& estimate) noexcept {
 }
 
 /// Of a frame that cannot be used: what is known without it. No state but the counters changes.
-template <class Limits>
+template <CapacityProfile Limits>
 Status Tracker<Limits>::Refuse(Status status, const DepthFrame& frame,
                                Estimate& estimate) noexcept {
   estimate.status = status;
@@ -264,7 +267,7 @@ Status Tracker<Limits>::Refuse(Status status, const DepthFrame& frame,
   return status;
 }
 
-template <class Limits>
+template <CapacityProfile Limits>
 Status Tracker<Limits>::Finish(Status status, const DepthFrame& frame,
                                Estimate& estimate) noexcept {
   estimate.status = status;
@@ -287,7 +290,7 @@ Status Tracker<Limits>::Finish(Status status, const DepthFrame& frame,
 }
 
 /// What the tracker knows between frames too.
-template <class Limits>
+template <CapacityProfile Limits>
 void Tracker<Limits>::Report(const PoseCameraFromObject& T_co, Estimate& estimate) const noexcept {
   estimate.T_co = T_co;
   estimate.twist = twist_filter_.twist();

@@ -2,6 +2,9 @@
 #pragma once
 
 #include "disflow/field/fast_math.h"
+#include "disflow/flow/model_agreement.h"
+#include "disflow/flow/pose_search.h"
+#include "disflow/flow/pose_uncertainty.h"
 #include "disflow/flow/weak_direction.h"
 #include "disflow/geometry/covariance.h"
 #include "disflow/tracker.h"
@@ -12,15 +15,14 @@
 
 namespace disflow {
 
-template <class Limits>
+template <CapacityProfile Limits>
 typename Tracker<Limits>::Aligned Tracker<Limits>::Register(const DepthFrame& frame,
                                                             Estimate& estimate) noexcept {
   // Starting poses are compared on a part of the samples: they are many and need not be precise.
   const EveryNth some(samples_, PoseSearch<Limits>::kPoints);
   registration_.SetObservations(some, edges_);
-  const typename PoseSearch<Limits>::Prior prior{
-      T_oc_, T_oc_previous_, frame_index_ >= kFramesUntilVelocity,
-      monitor_.Doubts(frame.stamp_ns) ? monitor_.missed() + 1 : 0};
+  const PoseSearchPrior prior{T_oc_, T_oc_previous_, frame_index_ >= kFramesUntilVelocity,
+                              monitor_.Doubts(frame.stamp_ns) ? monitor_.missed() + 1 : 0};
   const auto conflict = [&](const PoseObjectFromCamera& T_oc) {
     return AgreementWith(frame, T_oc).conflict();
   };
@@ -44,7 +46,7 @@ typename Tracker<Limits>::Aligned Tracker<Limits>::Register(const DepthFrame& fr
 }
 
 /// Believes the registered pose or not, and moves the twist filter and the monitor on.
-template <class Limits>
+template <CapacityProfile Limits>
 Status Tracker<Limits>::Conclude(const DepthFrame& frame, Status observed, const Aligned& aligned,
                                  Estimate& estimate) noexcept {
   TrackingMonitor::Evidence evidence;
@@ -90,7 +92,7 @@ Status Tracker<Limits>::Conclude(const DepthFrame& frame, Status observed, const
 /// The pose at a constant velocity; at one that fades while the object is not seen, since what
 /// moves by hand does not keep its velocity for long. An object that left the view is expected back
 /// where it left.
-template <class Limits>
+template <CapacityProfile Limits>
 PoseCameraFromObject Tracker<Limits>::Predict(const DepthFrame& frame) const noexcept {
   if (!monitor_.Doubts(frame.stamp_ns)) return twist_filter_.Extrapolate(frame.stamp_ns);
   const StampNs gap_ns = SpanNs(twist_filter_.stamp_ns(), frame.stamp_ns);
@@ -112,7 +114,7 @@ PoseCameraFromObject Tracker<Limits>::Predict(const DepthFrame& frame) const noe
 /// Whether a pose that was searched for is that of the same object frame. Many things look alike
 /// from opposite sides: neither may the pose be turned far from the predicted one, nor may the
 /// object have had the time to turn over since it was last seen.
-template <class Limits>
+template <CapacityProfile Limits>
 bool Tracker<Limits>::IsSameObjectFrame(const DepthFrame& frame,
                                         const PoseObjectFromCamera& T_oc) const noexcept {
   constexpr float kReach_rad = 0.7F;
@@ -125,7 +127,7 @@ bool Tracker<Limits>::IsSameObjectFrame(const DepthFrame& frame,
 
 /// What is known of the motion of an object that is not seen. The filter itself stays at the last
 /// registered frame: an acceleration measured there would carry a lost object away.
-template <class Limits>
+template <CapacityProfile Limits>
 void Tracker<Limits>::Coast(StampNs stamp_ns, Estimate& estimate) const noexcept {
   TwistFilter coasting = twist_filter_;
   coasting.Predict(stamp_ns);
@@ -136,12 +138,12 @@ void Tracker<Limits>::Coast(StampNs stamp_ns, Estimate& estimate) const noexcept
 }
 
 /// Covariances of (origin's position, rotation) in camera axes.
-template <class Limits>
+template <CapacityProfile Limits>
 typename Tracker<Limits>::PoseCovariance Tracker<Limits>::CovarianceOf(
     const Aligned& aligned, StampNs stamp_ns) const noexcept {
   constexpr float kLongest_s = 0.6F;  // a turn may then be anything
   const PoseUncertainty uncertainty =
-      Uncertainty(aligned.information, config_.registration.gradient_std_rad);
+      FindPoseUncertainty(aligned.information, config_.registration.gradient_std_rad);
   const Mat3 R_co = aligned.T_oc.rotation().transpose();
   const Vec3 to_origin_m = -aligned.center_m;
   const auto in_camera = [&](const Mat6& covariance_o) {

@@ -45,7 +45,7 @@ float Std(const Mat6& covariance, int i) { return std::sqrt(covariance(i, i)); }
 
 TEST(PoseUncertainty, ExactGradients_GiveTheInverseOfTheInformation) {
   const RegistrationInformation information = SeenBody(0.0F, 0.4F);
-  const PoseUncertainty uncertainty = Uncertainty(information, 0.0F);
+  const PoseUncertainty uncertainty = FindPoseUncertainty(information, 0.0F);
   ASSERT_TRUE(uncertainty.solved);
   EXPECT_TRUE(uncertainty.IsComplete());
   EXPECT_LT((information.total * uncertainty.covariance - Mat6::Identity()).norm(), 0.05F);
@@ -55,7 +55,7 @@ TEST(PoseUncertainty, TurnOfACan_IsUnobservedThoughGradientsSeemToTellIt) {
   const RegistrationInformation information = SeenBody(0.02F);
   // What errors of the gradients pretend: the turn would be known to a few degrees.
   EXPECT_GT(information.total(5, 5), 1.0F / (0.1F * 0.1F));
-  const PoseUncertainty uncertainty = Uncertainty(information, kGradientStd_rad);
+  const PoseUncertainty uncertainty = FindPoseUncertainty(information, kGradientStd_rad);
   ASSERT_TRUE(uncertainty.solved);
   EXPECT_FALSE(uncertainty.IsComplete());
   EXPECT_GT(Std(uncertainty.covariance, 5), 0.2F);
@@ -69,8 +69,8 @@ TEST(PoseUncertainty, TurnOfACan_IsUnobservedThoughGradientsSeemToTellIt) {
 
 TEST(PoseUncertainty, TurnOfAnOvalBody_IsObservedAndHardlyTouched) {
   const RegistrationInformation information = SeenBody(0.02F, 0.3F);
-  const PoseUncertainty without = Uncertainty(information, 0.0F);
-  const PoseUncertainty with = Uncertainty(information, kGradientStd_rad);
+  const PoseUncertainty without = FindPoseUncertainty(information, 0.0F);
+  const PoseUncertainty with = FindPoseUncertainty(information, kGradientStd_rad);
   EXPECT_TRUE(with.IsComplete());
   EXPECT_GT(Std(with.covariance, 5), Std(without.covariance, 5));
   EXPECT_LT(Std(with.covariance, 5), 1.3F * Std(without.covariance, 5));
@@ -85,7 +85,7 @@ TEST(PoseUncertainty, Plane_LeavesItsTwoShiftsAndItsTurnUnobserved) {
     equations.AddMoments(point_m, 1e6F);
   }
   const PoseUncertainty uncertainty =
-      Uncertainty({equations.h, equations.Isotropic() - equations.h}, kGradientStd_rad);
+      FindPoseUncertainty({equations.h, equations.Isotropic() - equations.h}, kGradientStd_rad);
   ASSERT_TRUE(uncertainty.solved);
   EXPECT_GT(uncertainty.unobserved(0, 0), 0.1F);
   EXPECT_GT(uncertainty.unobserved(1, 1), 0.1F);
@@ -96,10 +96,10 @@ TEST(PoseUncertainty, Plane_LeavesItsTwoShiftsAndItsTurnUnobserved) {
 
 TEST(PoseUncertainty, NotFiniteOrEmptyInformation_IsNotSolved) {
   RegistrationInformation information;
-  EXPECT_FALSE(Uncertainty(information, kGradientStd_rad).solved);
+  EXPECT_FALSE(FindPoseUncertainty(information, kGradientStd_rad).solved);
   information = SeenBody(0.0F, 0.3F);
   information.total(2, 2) = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_FALSE(Uncertainty(information, kGradientStd_rad).solved);
+  EXPECT_FALSE(FindPoseUncertainty(information, kGradientStd_rad).solved);
 }
 
 TEST(Drift, GrowsWithThePiecesAndInAllDirections) {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "disflow/depth/segmenter.h"
-
 #include <gtest/gtest.h>
 
 #include <memory>
 
 #include "depth_scene.h"
+#include "disflow/depth/segmenter_impl.h"
 #include "disflow/limits.h"
 
 namespace disflow {

@@ -140,9 +140,9 @@ class EdgeSampler {
   /// angle, is in between. Judged by medians along the outline, which noise and flying pixels
   /// disturb less than single pixels.
   template <class At>
-  [[nodiscard]] static bool ReachesOutline(
-      const DepthReader& depth, const PinholeCamera& camera, const At& at, const Vec2& inward,
-      const typename SurfaceSampler<Limits>::LocalSurface& surface, float noise_std) noexcept {
+  [[nodiscard]] static bool ReachesOutline(const DepthReader& depth, const PinholeCamera& camera,
+                                           const At& at, const Vec2& inward,
+                                           const BlockPlane& surface, float noise_std) noexcept {
     constexpr int kRows = 4;
     constexpr int kHalfLength = 3;
     constexpr float kPlaneTolerance = 0.001F;  // share of the depth

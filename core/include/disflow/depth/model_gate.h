@@ -4,20 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "disflow/depth/model_prior.h"
 #include "disflow/depth/pixel_mask.h"
 #include "disflow/geometry/pinhole_camera.h"
 #include "disflow/geometry/transform.h"
 
 namespace disflow {
-
-/// What is known of the object before a frame is segmented: its predicted pose and extent.
-struct ModelPrior {
-  bool known = false;
-  bool doubtful = false;          ///< The prediction may be far off: the object was lost.
-  PoseObjectFromCamera T_oc;      ///< Predicted.
-  Vec3 box_min_m = Vec3::Zero();  ///< Axis-aligned bounds of the model, object frame.
-  Vec3 box_max_m = Vec3::Zero();
-};
 
 /// Accepts the pixels whose points lie within the model's bounds plus a margin.
 class ModelGate {

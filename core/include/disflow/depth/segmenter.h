@@ -8,13 +8,30 @@
 #include "disflow/config.h"
 #include "disflow/depth/depth_frame.h"
 #include "disflow/depth/depth_reader.h"
-#include "disflow/depth/model_gate.h"
+#include "disflow/depth/model_prior.h"
 #include "disflow/depth/pixel_mask.h"
 #include "disflow/depth/pixel_runs.h"
 #include "disflow/depth/plane_removal.h"
 #include "disflow/estimate.h"
 
 namespace disflow {
+
+/// What mask and model say of one connected surface.
+struct SurfaceVote {
+  bool chosen = false;
+  int masked = 0;     ///< Its pixels within the mask.
+  int probed = 0;     ///< Its points that the model was asked about.
+  int explained = 0;  ///< Of these, those near known surface.
+};
+
+/// Whether a surface is the object's, once there is a model.
+/// @param pixels Of the surface.
+/// @param masked Whether a mask was given.
+[[nodiscard]] bool BelongsToObject(const SurfaceVote& vote, int pixels, bool masked) noexcept;
+
+/// The part of the image that the settings leave.
+[[nodiscard]] PixelBox RegionOfInterest(const DepthFrame& frame,
+                                        const SegmenterConfig& config) noexcept;
 
 /// Decides which pixels are the object. The depth image is cut into connected surfaces within reach
 /// of the predicted model (or, before there is a model, within range and region of interest); the
@@ -67,69 +84,9 @@ class Segmenter {
     for (int v = box.v_min; v < box.v_max; ++v) object.row(v).SetRun(box.u_min, box.u_max);
   }
 
-  [[nodiscard]] static PixelBox RegionOfInterest(const DepthFrame& frame,
-                                                 const SegmenterConfig& config) noexcept {
-    PixelBox box{0, 0, frame.depth.width_px, frame.depth.height_px};
-    if (config.roi_width_px > 0 && config.roi_height_px > 0) {
-      box.u_min = std::min(config.roi_x_px, box.u_max);
-      box.v_min = std::min(config.roi_y_px, box.v_max);
-      box.u_max = std::min(box.u_max, box.u_min + config.roi_width_px);
-      box.v_max = std::min(box.v_max, box.v_min + config.roi_height_px);
-    }
-    return box;
-  }
-
   /// Connected surfaces of what could be the object.
   void BuildSurfaces(const DepthFrame& frame, const SegmenterConfig& config,
-                     const ModelPrior& prior, const Mask& mask, Counters& counters) noexcept {
-    const DepthReader depth(frame.depth, config.min_range_m, config.max_range_m);
-    const bool masked = frame.mask.given();
-    if (prior.known) {
-      const float factor = masked ? kMaskMarginFactor : 1.0F;
-      const float margin_m =
-          factor * config.model_margin_m + (prior.doubtful ? config.lost_margin_m : 0.0F);
-      const ModelGate gate(frame.camera, prior, margin_m);
-      box_ =
-          gate.SearchBox(config.min_range_m, {0, 0, frame.depth.width_px, frame.depth.height_px});
-      planes_.Clear();
-      if (!masked) {
-        planes_.Find(depth, box_, [&](int u, int v, float depth_m) {
-          return !gate.Accepts(
-              frame.camera.BackProject(static_cast<float>(u), static_cast<float>(v), depth_m));
-        });
-      }
-      surfaces_.Build(depth, box_, config.depth_jump_ratio, kFewestPixels,
-                      [&](int v, int u_begin, int u_end, float* depth_m) {
-                        gate(v, u_begin, u_end, depth_m);
-                        planes_(v, u_begin, u_end, depth_m);
-                      });
-    } else if (masked) {
-      box_ = mask.box();
-      surfaces_.Build(depth, box_, config.depth_jump_ratio, kFewestPixels,
-                      [&mask](int v, int u_begin, int u_end, float* depth_m) {
-                        for (int u = u_begin; u < u_end; ++u)
-                          if (!mask.row(v).Test(u)) depth_m[u - u_begin] = 0.0F;
-                      });
-    } else {
-      box_ = RegionOfInterest(frame, config);
-      const int fewest_pixels = std::max(64, box_.width() * box_.height() / 2000);
-      planes_.Find(depth, box_, [](int, int, float) { return true; });
-      surfaces_.Build(depth, box_, config.depth_jump_ratio, fewest_pixels, planes_);
-      if (surfaces_.components() == 0) {  // nothing but planes: one of them is the object's own
-        planes_.Clear();
-        surfaces_.Build(depth, box_, config.depth_jump_ratio, fewest_pixels, planes_);
-      }
-    }
-    counters.runs_dropped += static_cast<std::uint32_t>(surfaces_.dropped());
-  }
-
-  /// What is known of one connected surface.
-  struct Vote {
-    bool chosen = false;
-    int masked = 0;     ///< Its pixels within the mask.
-    int probed = 0;     ///< Its points that the model was asked about.
-    int explained = 0;  ///< Of these, those near known surface.
-  };
+                     const ModelPrior& prior, const Mask& mask, Counters& counters) noexcept;
 
   template <class Explains>
   void ChooseSurfaces(const DepthFrame& frame, const SegmenterConfig& config,
@@ -158,7 +115,8 @@ class Segmenter {
       });
     }
     for (int c = 0; c < count; ++c)
-      vote(c).chosen = !prior.doubtful && Belongs(vote(c), surfaces_.component(c).pixels, masked);
+      vote(c).chosen =
+          !prior.doubtful && BelongsToObject(vote(c), surfaces_.component(c).pixels, masked);
     if (ExplainsTooLittle(masked)) ChooseUnexplained(masked);
   }
 
@@ -168,7 +126,7 @@ class Segmenter {
     int all = 0;
     int chosen = 0;
     for (int c = 0; c < surfaces_.components(); ++c) {
-      const Vote& v = votes_[static_cast<std::size_t>(c)];
+      const SurfaceVote& v = votes_[static_cast<std::size_t>(c)];
       const int pixels = masked ? v.masked : surfaces_.component(c).pixels;
       all += pixels;
       if (v.chosen) chosen += pixels;
@@ -185,13 +143,6 @@ class Segmenter {
       if (pixels > surfaces_.component(most).pixels) most = c;
     }
     if (!masked && surfaces_.components() > 0) vote(most).chosen = true;
-  }
-
-  [[nodiscard]] static bool Belongs(const Vote& vote, int pixels, bool masked) noexcept {
-    const bool explained = vote.probed > 0 && 10 * vote.explained >= 3 * vote.probed;
-    if (!masked) return explained || vote.probed == 0;
-    if (2 * vote.masked < pixels) return vote.masked > 0 && explained;
-    return vote.probed < 4 || 10 * vote.explained >= vote.probed;
   }
 
   /// Before a model exists: what lies under the seed pixel, most of the mask, or the nearest.
@@ -217,7 +168,7 @@ class Segmenter {
   /// Asks the model about every few points of a run.
   template <class Explains>
   static void Probe(const DepthReader& depth, const PinholeCamera& camera, Explains& explains,
-                    const PixelRun& run, Vote& vote) noexcept {
+                    const PixelRun& run, SurfaceVote& vote) noexcept {
     for (int u = run.u_begin + std::min(kProbeStepPx, run.length()) / 2; u < run.u_end;
          u += kProbeStepPx) {
       const float depth_m = depth.At(u, run.v);
@@ -279,7 +230,7 @@ class Segmenter {
       }
       for (int u = run.u_begin; u < run.u_end; u += kProbeStepPx) {
         const int u_end = std::min(u + kProbeStepPx, static_cast<int>(run.u_end));
-        Vote piece;
+        SurfaceVote piece;
         if (mask.CountRun(u, u_end) < u_end - u && prior.known) {
           const PixelRun part{run.v, static_cast<std::int16_t>(u), static_cast<std::int16_t>(u_end),
                               0, 0};
@@ -298,7 +249,7 @@ class Segmenter {
     object.template Close<kClosingPx>();
   }
 
-  [[nodiscard]] Vote& vote(int component) noexcept {
+  [[nodiscard]] SurfaceVote& vote(int component) noexcept {
     return votes_[static_cast<std::size_t>(component)];
   }
 
@@ -311,7 +262,7 @@ class Segmenter {
   Surfaces surfaces_;
   PlaneRemoval planes_;
   PixelBox box_;
-  std::array<Vote, static_cast<std::size_t>(Surfaces::kMaxComponents)> votes_;
+  std::array<SurfaceVote, static_cast<std::size_t>(Surfaces::kMaxComponents)> votes_;
 };
 
 }  // namespace disflow

@@ -27,11 +27,7 @@ struct EdgePoint {
 };
 
 /// An edge of the camera frame in the object frame.
-[[nodiscard]] inline EdgePoint operator*(const PoseObjectFromCamera& T_oc,
-                                         const EdgePoint& point) noexcept {
-  const Mat3& r = T_oc.rotation();
-  return {T_oc * point.position_m, r * point.direction, r * point.normal, r * point.ray,
-          point.pixel_m};
-}
+[[nodiscard]] EdgePoint operator*(const PoseObjectFromCamera& T_oc,
+                                  const EdgePoint& point) noexcept;
 
 }  // namespace disflow

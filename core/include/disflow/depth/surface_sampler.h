@@ -17,6 +17,30 @@
 
 namespace disflow {
 
+/// The plane that was fitted to one block of pixels, camera frame.
+struct BlockPlane {
+  bool valid = false;
+  Vec3 normal = Vec3::Zero();
+  float offset_m = 0.0F;  ///< normal . x = offset on the plane.
+  float normal_variance = 0.0F;
+  float cos_incidence = 0.0F;
+};
+
+/// A rectangle of blocks around one of them.
+struct BlockWindow {
+  int column_min, column_max, row_min, row_max;  // offsets in blocks, both included
+};
+/// The whole neighbourhood first, then the halves and the quarters that contain the block itself.
+inline constexpr std::array<BlockWindow, 9> kBlockWindows{{{-1, 1, -1, 1},
+                                                           {-1, 0, -1, 1},
+                                                           {0, 1, -1, 1},
+                                                           {-1, 1, -1, 0},
+                                                           {-1, 1, 0, 1},
+                                                           {-1, 0, -1, 0},
+                                                           {0, 1, -1, 0},
+                                                           {-1, 0, 0, 1},
+                                                           {0, 1, 0, 1}}};
+
 /// Turns the object's pixels into at most M surface samples with position, normal and variance.
 ///
 /// Pixels are summed per small block; planes are fitted to windows of 3x3 blocks in inverse depth
@@ -51,16 +75,8 @@ class SurfaceSampler {
     }
   }
 
-  /// The fitted plane of the block nearest to a pixel in the direction of the object's inside; for
-  /// edge points.
-  struct LocalSurface {
-    bool valid = false;
-    Vec3 normal = Vec3::Zero();  ///< Camera frame.
-    float offset_m = 0.0F;       ///< normal . x = offset on the plane.
-    float normal_variance = 0.0F;
-    float cos_incidence = 0.0F;
-  };
-  [[nodiscard]] LocalSurface SurfaceAt(int u, int v) const noexcept {
+  /// The plane that was fitted to the block of a pixel; for edge points.
+  [[nodiscard]] BlockPlane SurfaceAt(int u, int v) const noexcept {
     const int column = (u - origin_u_) / block_px_;
     const int row = (v - origin_v_) / block_px_;
     if (u < origin_u_ || v < origin_v_ || column >= columns_ || row >= rows_) return {};
@@ -74,20 +90,6 @@ class SurfaceSampler {
   [[nodiscard]] int block_px() const noexcept { return block_px_; }
 
  private:
-  struct Window {
-    int column_min, column_max, row_min, row_max;  // offsets in blocks, both included
-  };
-  // The whole neighbourhood first, then the halves and the quarters that contain the block itself.
-  static constexpr std::array<Window, 9> kWindows{{{-1, 1, -1, 1},
-                                                   {-1, 0, -1, 1},
-                                                   {0, 1, -1, 1},
-                                                   {-1, 1, -1, 0},
-                                                   {-1, 1, 0, 1},
-                                                   {-1, 0, -1, 0},
-                                                   {0, 1, -1, 0},
-                                                   {-1, 0, 0, 1},
-                                                   {0, 1, 0, 1}}};
-
   [[nodiscard]] std::size_t Index(int column, int row) const noexcept {
     return static_cast<std::size_t>(row * columns_ + column);
   }
@@ -165,7 +167,8 @@ class SurfaceSampler {
     return &moments_[index];
   }
 
-  [[nodiscard]] PixelMoments MergeWindow(int column, int row, const Window& window) const noexcept {
+  [[nodiscard]] PixelMoments MergeWindow(int column, int row,
+                                         const BlockWindow& window) const noexcept {
     PixelMoments sum = block(column, row);
     const auto step = static_cast<float>(block_px_);
     for (int r = std::max(row + window.row_min, 0); r <= std::min(row + window.row_max, rows_ - 1);
@@ -184,7 +187,7 @@ class SurfaceSampler {
   /// creases hardly disturb.
   [[nodiscard]] float EstimateNoise() noexcept {
     // A block of fewer than 4x4 pixels leaves too few degrees of freedom by itself.
-    const Window window = block_px_ >= 4 ? Window{0, 0, 0, 0} : Window{0, 1, 0, 1};
+    const BlockWindow window = block_px_ >= 4 ? BlockWindow{0, 0, 0, 0} : BlockWindow{0, 1, 0, 1};
     int count = 0;
     const int stride = std::max(1, columns_ * rows_ / kNoiseBlocks);
     for (int i = 0; i < columns_ * rows_ && count < kNoiseBlocks; i += stride) {
@@ -242,8 +245,8 @@ class SurfaceSampler {
     // clutter.
     const float allowed_bend = config.max_bend_ratio * own_w;
     InverseDepthPlane best;
-    for (std::size_t i = 0; i < kWindows.size(); ++i) {
-      InverseDepthPlane plane = InverseDepthPlane::Fit(MergeWindow(column, row, kWindows[i]));
+    for (std::size_t i = 0; i < kBlockWindows.size(); ++i) {
+      InverseDepthPlane plane = InverseDepthPlane::Fit(MergeWindow(column, row, kBlockWindows[i]));
       if (!plane.valid) continue;
       if (i == 0) {
         const CurvedWindow curved = FitCurve(column, row, plane);

@@ -23,7 +23,7 @@ struct DistanceQuery {
 
 /// Answers distance queries on a model (section IV). A view: the model must not change while it
 /// exists; making one costs next to nothing. Work per query is bounded by the profile's capacities.
-template <class Limits>
+template <CapacityProfile Limits>
 class DistanceQuerier {
  public:
   using Field = DistanceField<Limits>;

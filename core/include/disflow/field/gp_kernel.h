@@ -16,7 +16,7 @@ struct GpHyperparameters {
 };
 
 /// The covariance function of the local GPs (section IV, "Kernel Design"): Matern 3/2. Whatever
-/// depends on which kernel it is, is in this file.
+/// depends on which kernel it is, is in this class.
 ///
 /// In coordinates p = s (x - c) with s = sqrt(3) / length_scale and scaled distance s d the kernel
 /// is k(r) = a^2 (1 + r) exp(-r), r = |p - p'|. Then the gradient by x equals the scaled value's
@@ -40,20 +40,7 @@ class GpKernel {
   [[nodiscard]] float prior_variance() const noexcept { return amplitude_squared_; }
 
   /// Joint covariance k~(p, p') of section IV: of (scaled d, grad d) at p, rows, and at q, columns.
-  [[nodiscard]] Mat4 Covariance(const Vec3& p, const Vec3& q) const noexcept {
-    constexpr float kCoincident = 1e-6F;  // the second term of the gradients' vanishes with r
-    const Vec3 e = p - q;
-    const float r = e.norm();
-    const float envelope = amplitude_squared_ * FastExpNonPositive(-r);
-    const float inverse_r = r > kCoincident ? 1.0F / r : 0.0F;
-    const Vec3 value_gradient = envelope * e;
-    Mat4 k;
-    k(0, 0) = (1.0F + r) * envelope;
-    k.block<1, 3>(0, 1) = value_gradient.transpose();
-    k.block<3, 1>(1, 0) = -value_gradient;
-    k.block<3, 3>(1, 1) = envelope * (Mat3::Identity() - inverse_r * e * e.transpose());
-    return k;
-  }
+  [[nodiscard]] Mat4 Covariance(const Vec3& p, const Vec3& q) const noexcept;
 
   /// k~_*^T alpha of equation (6), over all samples at once: the sum of Covariance(p, p_i) alpha_i.
   /// @param ex, ey, ez p - p_i

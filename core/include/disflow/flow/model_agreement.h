@@ -33,9 +33,9 @@ struct ModelAgreement {
 
 /// Looks up the centres of the model's local GPs that face the camera.
 template <class Field>
-[[nodiscard]] ModelAgreement Compare(const Field& field, const PoseObjectFromCamera& T_oc,
-                                     const PinholeCamera& camera,
-                                     const DepthReader& depth) noexcept {
+[[nodiscard]] ModelAgreement CompareWithImage(const Field& field, const PoseObjectFromCamera& T_oc,
+                                              const PinholeCamera& camera,
+                                              const DepthReader& depth) noexcept {
   constexpr float kFewestCosine = 0.3F;
   constexpr float kToleranceFloor_m = 0.006F;
   constexpr float kTolerancePerMetre = 0.01F;

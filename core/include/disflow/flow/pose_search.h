@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
 #include <cmath>
 
+#include "disflow/flow/pose_start.h"
 #include "disflow/flow/registration.h"
 #include "disflow/memory/fixed_vector.h"
 
@@ -18,24 +18,8 @@ class PoseSearch {
   using RegistrationType = Registration<Limits>;
   using Model = EdgeMap<Limits::kMaxModelEdges>;
 
-  /// Where the registration of the frame begins.
-  struct Start {
-    PoseObjectFromCamera T_oc;
-    PoseObjectFromCamera T_expected;  ///< What the motion so far says, as far as it is believed.
-    typename RegistrationType::RobustScale robust_scale;  ///< How far off it may be.
-    int tried = 1;
-  };
-
-  /// What is known before a frame is registered.
-  struct Prior {
-    PoseObjectFromCamera T_predicted;  ///< By constant velocity.
-    PoseObjectFromCamera T_previous;   ///< Of the last registered frame.
-    bool velocity_known =
-        false;  ///< false: the object was just started, the prediction is a guess.
-    /// 0: the object was registered in the last frame. Else it has to be searched for, for the
-    /// n-th frame in a row.
-    int search = 0;
-  };
+  using Start = PoseSearchStart;
+  using Prior = PoseSearchPrior;
 
   /// Keeps references to its arguments.
   PoseSearch(const RegistrationType& registration, const Field& field, const Model& edges,
@@ -86,8 +70,7 @@ class PoseSearch {
   static constexpr float kFewestCosine = 0.3F;
   using Starts = FixedVector<PoseObjectFromCamera, kMaxStarts>;
 
-  [[nodiscard]] typename RegistrationType::RobustScale Scale(float surface_share,
-                                                             float edge_share) const noexcept {
+  [[nodiscard]] RobustScale Scale(float surface_share, float edge_share) const noexcept {
     return {surface_share * config_.robust_scale_start_m,
             edge_share * config_.robust_scale_start_m};
   }
@@ -96,26 +79,14 @@ class PoseSearch {
   /// of a grid of rotations about the predicted one, a different part in every frame, so that a
   /// frame's time stays bounded. The grid reaches 30 degrees in every direction.
   void AddTurned(Starts& starts) const noexcept {
-    constexpr int kDirections = 14;  // the axes and the diagonals of a cube, both ways
     constexpr float kAngle_rad = 0.38F;
     for (int i = 0; !starts.full(); ++i) {
-      const int index = ((prior_.search - 1) * (kMaxStarts - 4) + i) % kDirections;
+      const int index = ((prior_.search - 1) * (kMaxStarts - 4) + i) % kCubeDirections;
       const Vec3 turn = kAngle_rad * CubeDirection(index);
       const PoseObjectFromCamera turned(Mat3(ExpSo3(turn) * prior_.T_predicted.rotation()),
                                         prior_.T_predicted.translation());
       (void)starts.push_back(Recentred(turned));
     }
-  }
-
-  [[nodiscard]] static Vec3 CubeDirection(int index) noexcept {
-    if (index < 6) {
-      Vec3 axis = Vec3::Zero();
-      axis[index / 2] = index % 2 == 0 ? 1.0F : -1.0F;
-      return axis;
-    }
-    const int corner = index - 6;
-    return Vec3(corner & 1 ? 1.0F : -1.0F, corner & 2 ? 1.0F : -1.0F, corner & 4 ? 1.0F : -1.0F)
-        .normalized();
   }
 
   template <class Conflict>
@@ -150,16 +121,8 @@ class PoseSearch {
            kDeviationShare * deviation / (1.0F + deviation);
   }
 
-  /// Squared distance from the predicted pose, in units of what an impulse between two frames can
-  /// do.
   [[nodiscard]] float Deviation(const PoseObjectFromCamera& T_oc) const noexcept {
-    constexpr float kShift_m = 0.025F;
-    constexpr float kTurn_rad = 0.2F;
-    const Vec3& center_c = registration_.center_c();
-    const Vec3 shift = T_oc * center_c - prior_.T_predicted * center_c;
-    const Vec3 turn = LogSo3(Mat3(T_oc.rotation() * prior_.T_predicted.rotation().transpose()));
-    return shift.squaredNorm() / (kShift_m * kShift_m) +
-           turn.squaredNorm() / (kTurn_rad * kTurn_rad);
+    return ImpulsesApart(registration_.center_c(), T_oc, prior_.T_predicted);
   }
 
   /// The same rotation, with the observed centroid put onto the centroid of the model's part that
@@ -179,15 +142,6 @@ class PoseSearch {
     if (count < 1.0F) return T_oc;
     const Vec3 shift = sum / count - T_oc * registration_.center_c();
     return {T_oc.rotation(), Vec3(T_oc.translation() + shift)};
-  }
-
-  [[nodiscard]] static PoseObjectFromCamera HalfWay(const Vec3& center_c,
-                                                    const PoseObjectFromCamera& a,
-                                                    const PoseObjectFromCamera& b) noexcept {
-    const Vec3 turn = 0.5F * LogSo3(Mat3(b.rotation() * a.rotation().transpose()));
-    const Mat3 rotation = ExpSo3(turn) * a.rotation();
-    const Vec3 center_o = 0.5F * (a * center_c + b * center_c);
-    return {rotation, Vec3(center_o - rotation * center_c)};
   }
 
   const RegistrationType& registration_;

@@ -32,8 +32,8 @@ struct PoseUncertainty {
 /// taken off the information; directions of which they explain half and more count as unobserved.
 /// Fuller, "Measurement Error Models", section 1.2.
 /// @param gradient_std Error of the field's gradients, rad.
-[[nodiscard]] PoseUncertainty Uncertainty(const RegistrationInformation& information,
-                                          float gradient_std) noexcept;
+[[nodiscard]] PoseUncertainty FindPoseUncertainty(const RegistrationInformation& information,
+                                                  float gradient_std) noexcept;
 
 /// Adds the drift of the model: errors of earlier poses are built into the surface that later ones
 /// are registered to, whichever direction they had then.

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "disflow/config.h"
-#include "disflow/depth/edge_sampler.h"
+#include "disflow/depth/surface_sample.h"
 #include "disflow/field/distance_field.h"
 #include "disflow/field/edge_map.h"
 #include "disflow/flow/edge_residual.h"
@@ -24,7 +24,7 @@ template <class Limits>
 class Registration {
  public:
   using Field = DistanceField<Limits>;
-  using Edges = typename EdgeSampler<Limits>::Edges;
+  using Edges = typename EdgeResiduals<Limits>::Edges;
   using Model = EdgeMap<Limits::kMaxModelEdges>;
   using Samples = typename SurfaceResiduals<Limits>::Samples;
   using RobustScale = disflow::RobustScale;

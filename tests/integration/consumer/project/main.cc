@@ -7,32 +7,10 @@
 
 #include "disflow/field/distance_query.h"
 #include "disflow/tracker.h"
+#include "moving_corner.h"
 
-namespace {
-
-constexpr int kWidth = 160;
-constexpr int kHeight = 120;
-
-/// The corner of a cube that points at the camera and moves sideways, in 16-bit millimetres;
-/// replace it by your camera.
-void TakeImage(double time_s, const disflow::PinholeCamera& camera,
-               std::vector<std::uint16_t>& depth_mm) {
-  const disflow::Vec3 corner(static_cast<float>(0.1 * time_s), 0.0F, 0.55F);
-  const disflow::Vec3 faces[] = {{0.8F, 0.0F, -0.6F}, {-0.4F, 0.7F, -0.6F}, {-0.4F, -0.7F, -0.6F}};
-  for (int v = 0; v < kHeight; ++v) {
-    for (int u = 0; u < kWidth; ++u) {
-      const disflow::Vec3 ray = camera.Ray(static_cast<float>(u), static_cast<float>(v));
-      float depth_m = 0.0F;
-      for (const disflow::Vec3& normal : faces)
-        depth_m = std::fmax(depth_m, normal.dot(corner) / normal.dot(ray));
-      if (depth_m > corner.z() + 0.08F) depth_m = 0.0F;
-      depth_mm[static_cast<std::size_t>(v * kWidth + u)] =
-          static_cast<std::uint16_t>(1000.0F * depth_m + 0.5F);
-    }
-  }
-}
-
-}  // namespace
+using consumer::kHeight;
+using consumer::kWidth;
 
 int main() {
   static disflow::Tracker<disflow::profiles::Edge>
@@ -41,10 +19,10 @@ int main() {
   disflow::DepthFrame frame;
   frame.depth = {depth_mm.data(), kWidth, kHeight, kWidth * 2, disflow::DepthFormat::kUint16,
                  0.001F};
-  frame.camera = {200.0F, 200.0F, 80.0F, 60.0F};
+  frame.camera = consumer::kCamera;
   disflow::Estimate estimate;
   for (int i = 0; i < 30; ++i) {
-    TakeImage(i / 30.0, frame.camera, depth_mm);
+    consumer::TakeImage(i / 30.0, frame.camera, depth_mm);
     frame.stamp_ns = 1 + i * 33'333'333LL;
     if (tracker.Process(frame, estimate) != disflow::Status::kOk) {
       std::fprintf(stderr, "frame %d: %s\n", i, disflow::Describe(estimate.status));

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "disflow/geometry/transform.h"
+
+namespace disflow {
+
+/// What is known of the object before a frame is segmented: its predicted pose and extent.
+struct ModelPrior {
+  bool known = false;
+  bool doubtful = false;          ///< The prediction may be far off: the object was lost.
+  PoseObjectFromCamera T_oc;      ///< Predicted.
+  Vec3 box_min_m = Vec3::Zero();  ///< Axis-aligned bounds of the model, object frame.
+  Vec3 box_max_m = Vec3::Zero();
+};
+
+}  // namespace disflow

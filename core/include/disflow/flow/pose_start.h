@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "disflow/flow/registration_result.h"
+#include "disflow/geometry/transform.h"
+
+/// @file
+/// What the search for a pose works with and gives, whatever the profile; see pose_search.h.
+
+namespace disflow {
+
+/// Where the registration of the frame begins.
+struct PoseSearchStart {
+  PoseObjectFromCamera T_oc;
+  PoseObjectFromCamera T_expected;  ///< What the motion so far says, as far as it is believed.
+  RobustScale robust_scale;         ///< How far off it may be.
+  int tried = 1;
+};
+
+/// What is known before a frame is registered.
+struct PoseSearchPrior {
+  PoseObjectFromCamera T_predicted;  ///< By constant velocity.
+  PoseObjectFromCamera T_previous;   ///< Of the last registered frame.
+  /// false: the object was just started, the prediction is a guess.
+  bool velocity_known = false;
+  /// 0: the object was registered in the last frame. Else it has to be searched for, for the
+  /// n-th frame in a row.
+  int search = 0;
+};
+
+/// The axes and the diagonals of a cube, both ways.
+inline constexpr int kCubeDirections = 14;
+/// @param index From 0 to kCubeDirections - 1.
+[[nodiscard]] Vec3 CubeDirection(int index) noexcept;
+
+/// The pose in the middle between two, turned about a centre.
+/// @param center_c Camera frame.
+[[nodiscard]] PoseObjectFromCamera HalfWay(const Vec3& center_c, const PoseObjectFromCamera& a,
+                                           const PoseObjectFromCamera& b) noexcept;
+
+/// Squared distance between two poses, in units of what an impulse between two frames can do.
+/// @param center_c The point whose shift counts, camera frame.
+[[nodiscard]] float ImpulsesApart(const Vec3& center_c, const PoseObjectFromCamera& T_oc,
+                                  const PoseObjectFromCamera& T_predicted) noexcept;
+
+}  // namespace disflow
