@@ -59,7 +59,7 @@ class Seen {
     observing.normal_noise = 0.02F;
     std::mt19937 random(seed);
     samples_.clear();
-    while (!samples_.full()) {
+    for (int tries = 0; tries < 100000 && !samples_.full(); ++tries) {
       const SurfacePoint point = shape_.random_point(random);
       const Vec3 to_eye_m = T_oc_.translation() - point.position_m;
       if (point.normal.dot(to_eye_m) < 0.3F * to_eye_m.norm()) continue;
@@ -68,6 +68,7 @@ class Seen {
       sample.normal = T_oc_.rotation().transpose() * sample.normal;
       (void)samples_.push_back(sample);
     }
+    EXPECT_TRUE(samples_.full()) << "the shape turns its back on the camera";
     registration_->SetObservations(samples_, no_edges_);
   }
 
@@ -117,6 +118,12 @@ class Seen {
 
 PoseCameraFromObject InView() {
   return {ExpSo3(Vec3(0.4F, 0.7F, -0.2F)), Vec3(0.05F, -0.02F, 0.6F)};
+}
+
+/// The plane's front, seen a little from the side.
+PoseCameraFromObject PlaneInView() {
+  return PoseCameraFromObject(Mat3(ExpSo3(Vec3(2.7F, 0.2F, 0.0F))), Vec3(0.02F, -0.02F, 0.6F)) *
+         OddPlace().Inverse();
 }
 
 /// What a frame may be off by: the object moved on while the velocity was not known yet.
@@ -208,7 +215,7 @@ TEST(Registration, SphereMoved_IsPutBackAndItsTurnLeftAlone) {
 }
 
 TEST(Registration, PlaneMoved_IsPutBackAlongItsNormalAndDoesNotSlide) {
-  Seen seen(OddPlane(), InView());
+  Seen seen(OddPlane(), PlaneInView());
   const Mat6 along = AlongAxes(OddPlace().rotation() * Vec3::UnitZ());
   Mat6 observed = along;
   for (const int slide : {1, 2, 3}) observed.row(slide).setZero();
@@ -475,7 +482,7 @@ TEST(Registration, MoreSamplesThanFit_AreThinnedEvenly) {
 }
 
 TEST(Registration, StrongPrediction_HoldsWhatTheSurfaceDoesNot) {
-  Seen seen(OddPlane(), InView());
+  Seen seen(OddPlane(), PlaneInView());
   seen.Look(2);
   seen.config().temporal_std_m = 0.005F;
   const Vec3 slide = OddPlace().rotation() * Vec3::UnitX();
