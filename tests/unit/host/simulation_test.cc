@@ -152,8 +152,8 @@ INSTANTIATE_TEST_SUITE_P(
                      testing::Values(Named<CameraKind>{"StaticCamera", CameraKind::kStatic},
                                      Named<CameraKind>{"MovingCamera", CameraKind::kMoving})),
     [](const auto& test) {
-      const auto& [object, motion, camera] = test.param;
-      return std::string(object.name) + motion.name + camera.name;
+      return std::string(std::get<0>(test.param).name) + std::get<1>(test.param).name +
+             std::get<2>(test.param).name;
     });
 
 TEST(MovingCamera, Twist_IsTheDerivativeOfTheRelativePose) {
