@@ -44,7 +44,7 @@ struct Samples {
 template <class L>
 struct Edges {
   static constexpr std::size_t kBytes =
-      sizeof(typename disflow::EdgeSampler<L>::Edges) + sizeof(disflow::EdgeMap<L::kMaxModelEdges>);
+      sizeof(typename disflow::Registration<L>::Edges) + sizeof(disflow::EdgeMap<L::kMaxModelEdges>);
 };
 template <class L>
 struct FreeSpace {
