@@ -10,8 +10,8 @@ namespace {
 // Standard deviations at which a pose is worth half: a gripper's tolerance.
 constexpr float kPositionStdHalf_m = 0.005F;
 constexpr float kRotationStdHalf_rad = 0.05F;
-constexpr float kFewestInlierShare = 0.15F;
-constexpr float kFewestRecoveredShare = 0.55F;
+constexpr float kMinInlierShare = 0.15F;
+constexpr float kMinRecoveredShare = 0.55F;
 
 }  // namespace
 
@@ -30,9 +30,9 @@ bool TrackingMonitor::Accepts(const Evidence& evidence, StampNs stamp_ns) const 
   if (!evidence.registered) return false;
   if (!Doubts(stamp_ns)) {
     return evidence.score >= config_.lost_score && evidence.conflict <= config_.lost_conflict &&
-           inlier_share >= kFewestInlierShare;
+           inlier_share >= kMinInlierShare;
   }
-  return evidence.score >= config_.recovered_score && inlier_share >= kFewestRecoveredShare &&
+  return evidence.score >= config_.recovered_score && inlier_share >= kMinRecoveredShare &&
          evidence.conflict <= config_.degraded_conflict;
 }
 

@@ -37,7 +37,7 @@ Status Tracker<Limits>::Process(const DepthFrame& frame, Estimate& estimate,
   // Which pixels are the object, and which surface they show.
   status = Observe(frame, estimate, stopwatch, started_ && monitor_.Doubts(frame.stamp_ns));
 
-  // V-B to V-D: the pose that puts the observed points onto the zero level of the distance field,
+  // V-C to V-E: the pose that puts the observed points onto the zero level of the distance field,
   // then the twist.
   if (started_) {
     const Aligned aligned = status == Status::kOk ? Register(frame, estimate) : Aligned{};
@@ -48,7 +48,7 @@ Status Tracker<Limits>::Process(const DepthFrame& frame, Estimate& estimate,
     StartObject(frame);
   }
 
-  // V-E: what was observed becomes part of the model.
+  // V-F: what was observed becomes part of the model.
   if (status == Status::kOk) {
     RememberView(frame);
     FuseObservations(estimate);

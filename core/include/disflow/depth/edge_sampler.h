@@ -137,8 +137,8 @@ class EdgeSampler {
   }
 
   /// The pixels up to the outline lie on the surface: no sliver of another face, seen at a flat
-  /// angle, is in between. Judged by medians along the outline, which noise and flying pixels
-  /// disturb less than single pixels.
+  /// angle, is in between. Judged, row by row along the outline, by the deviation that a third of
+  /// the pixels keep below: noise and flying pixels disturb it less than single pixels.
   template <class At>
   [[nodiscard]] static bool ReachesOutline(const DepthReader& depth, const PinholeCamera& camera,
                                            const At& at, const Vec2& inward,

@@ -28,7 +28,7 @@ class PlaneRemoval {
     planes_.clear();
     Collect(depth, box, is_context);
     const int total = points_.size();
-    if (total < kFewestPoints) return;
+    if (total < kMinPoints) return;
     while (!planes_.full()) {
       Plane best;
       int most = 0;
@@ -40,7 +40,7 @@ class PlaneRemoval {
         most = inliers;
         best = plane;
       }
-      if (most < kFewestPoints || most < static_cast<int>(kFewestShare * static_cast<float>(total)))
+      if (most < kMinPoints || most < static_cast<int>(kMinShare * static_cast<float>(total)))
         return;
       for (int round = 0; round < 2; ++round) {
         (void)Fit([&](const Point& p) { return IsOn(best, p); }, best);
@@ -81,10 +81,10 @@ class PlaneRemoval {
   static constexpr int kMaxPlanes = 3;
   static constexpr int kMaxPoints = 640;
   static constexpr int kTiles = 6;  ///< Planes are guessed from the tiles of a 6 x 6 grid.
-  static constexpr int kFewestPoints = 24;
-  static constexpr int kFewestPerTile = 5;
-  static constexpr int kFewestAtBorder = 8;
-  static constexpr float kFewestShare = 0.2F;
+  static constexpr int kMinPoints = 24;
+  static constexpr int kMinPerTile = 5;
+  static constexpr int kMinAtBorder = 8;
+  static constexpr float kMinShare = 0.2F;
   /// Three standard deviations of a good stereo camera's inverse depth.
   static constexpr float kTolerance_per_m = 0.010F;
 
@@ -123,7 +123,7 @@ class PlaneRemoval {
           p.v < static_cast<float>(box.v_min) + dv || p.v >= static_cast<float>(box.v_max) - dv;
       return at_border && IsOn(plane, p);
     });
-    return inliers >= kFewestAtBorder;
+    return inliers >= kMinAtBorder;
   }
 
   [[nodiscard]] bool FitTile(const PixelBox& box, int tile, Plane& plane) const noexcept {
@@ -150,7 +150,7 @@ class PlaneRemoval {
       mean += Vec3(p.u, p.v, p.w);
       ++count;
     }
-    if (count < kFewestPerTile) return false;
+    if (count < kMinPerTile) return false;
     mean /= static_cast<float>(count);
     float uu = 0.0F, uv = 0.0F, vv = 0.0F, uw = 0.0F, vw = 0.0F;
     for (const Point& p : points_) {

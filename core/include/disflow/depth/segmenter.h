@@ -67,7 +67,7 @@ class Segmenter {
 
  private:
   using Surfaces = PixelRuns<Limits::kMaxRuns, Limits::kMaxImageWidth>;
-  static constexpr int kFewestPixels = 30;
+  static constexpr int kMinPixels = 30;  ///< Of a surface that may be the object.
   /// The mask is evidence too, so the prediction may be farther off.
   static constexpr float kMaskMarginFactor = 2.0F;
 
@@ -122,7 +122,7 @@ class Segmenter {
 
   /// Whether next to nothing of what could be the object is chosen: the prediction is far off.
   [[nodiscard]] bool ExplainsTooLittle(bool masked) const noexcept {
-    constexpr int kFewestPercent = 20;
+    constexpr int kMinPercent = 20;
     int all = 0;
     int chosen = 0;
     for (int c = 0; c < surfaces_.components(); ++c) {
@@ -131,7 +131,7 @@ class Segmenter {
       all += pixels;
       if (v.chosen) chosen += pixels;
     }
-    return masked ? 100 * chosen < kFewestPercent * all : chosen == 0;
+    return masked ? 100 * chosen < kMinPercent * all : chosen == 0;
   }
 
   /// Without the model's opinion: what the mask covers most of, or the largest surface.
@@ -145,7 +145,8 @@ class Segmenter {
     if (!masked && surfaces_.components() > 0) vote(most).chosen = true;
   }
 
-  /// Before a model exists: what lies under the seed pixel, most of the mask, or the nearest.
+  /// Before a model exists: with a mask the largest surface within it, else the one under the seed
+  /// pixel, else the nearest.
   [[nodiscard]] int ChooseFirst(const DepthFrame& frame,
                                 const SegmenterConfig& config) const noexcept {
     const DepthReader depth(frame.depth, config.min_range_m, config.max_range_m);

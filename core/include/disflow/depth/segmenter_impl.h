@@ -31,14 +31,14 @@ void Segmenter<Limits>::BuildSurfaces(const DepthFrame& frame, const SegmenterCo
             frame.camera.BackProject(static_cast<float>(u), static_cast<float>(v), depth_m));
       });
     }
-    surfaces_.Build(depth, box_, config.depth_jump_ratio, kFewestPixels,
+    surfaces_.Build(depth, box_, config.depth_jump_ratio, kMinPixels,
                     [&](int v, int u_begin, int u_end, float* depth_m) {
                       gate(v, u_begin, u_end, depth_m);
                       planes_(v, u_begin, u_end, depth_m);
                     });
   } else if (masked) {
     box_ = mask.box();
-    surfaces_.Build(depth, box_, config.depth_jump_ratio, kFewestPixels,
+    surfaces_.Build(depth, box_, config.depth_jump_ratio, kMinPixels,
                     [&mask](int v, int u_begin, int u_end, float* depth_m) {
                       for (int u = u_begin; u < u_end; ++u)
                         if (!mask.row(v).Test(u)) depth_m[u - u_begin] = 0.0F;

@@ -32,8 +32,9 @@ enum class Fusion : std::uint8_t {
   kRefused,   ///< No room.
 };
 
-/// The object's surface as a signed distance field in the object frame: local Gaussian processes in
-/// an octree (section IV). Outside is positive.
+/// The object's surface as a signed distance field in the object frame, the zero level of d(x) as
+/// in equation (3): local Gaussian processes, equation (4), in an octree (section IV). Outside is
+/// positive.
 template <class Limits>
 class DistanceField {
  public:

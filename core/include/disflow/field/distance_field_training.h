@@ -103,13 +103,13 @@ int DistanceField<Limits>::SpreadSelection(Candidates& candidates, const Vec3& c
 
 template <class Limits>
 void DistanceField<Limits>::TrainCluster(ClusterType& cluster, Counters& counters) noexcept {
-  constexpr int kFewest = 6;
+  constexpr int kMinSamples = 6;
   cluster.dirtiness = 0.0F;
   cluster.UpdateMeans();
   Candidates candidates;
   GatherCandidates(cluster, true, candidates, counters);
   // A new side has no sample that was seen often; better trained on young samples than not at all.
-  if (candidates.size() < kFewest) {
+  if (candidates.size() < kMinSamples) {
     candidates.clear();
     GatherCandidates(cluster, false, candidates, counters);
   }

@@ -36,7 +36,7 @@ template <class Field>
 [[nodiscard]] ModelAgreement CompareWithImage(const Field& field, const PoseObjectFromCamera& T_oc,
                                               const PinholeCamera& camera,
                                               const DepthReader& depth) noexcept {
-  constexpr float kFewestCosine = 0.3F;
+  constexpr float kMinCosine = 0.3F;
   constexpr float kToleranceFloor_m = 0.006F;
   constexpr float kTolerancePerMetre = 0.01F;
   const PoseCameraFromObject T_co = T_oc.Inverse();
@@ -44,7 +44,7 @@ template <class Field>
   ModelAgreement agreement;
   field.store().ForEach([&](auto, const auto& cluster) {
     const Vec3 to_eye = eye_o - cluster.centroid_m;
-    if (cluster.mean_normal.dot(to_eye) < kFewestCosine * to_eye.norm()) return;
+    if (cluster.mean_normal.dot(to_eye) < kMinCosine * to_eye.norm()) return;
     const Vec3 x_c = T_co * cluster.centroid_m;
     if (!(x_c.z() > 0.0F)) return;
     const Vec2 px = camera.Project(x_c);

@@ -67,7 +67,7 @@ class PoseSearch {
   static constexpr float kDeviationShare = 0.15F;
   static constexpr float kBelievedShare = 0.5F;
   static constexpr float kSearchedShare = 0.25F;
-  static constexpr float kFewestCosine = 0.3F;
+  static constexpr float kMinCosine = 0.3F;
   using Starts = FixedVector<PoseObjectFromCamera, kMaxStarts>;
 
   [[nodiscard]] RobustScale Scale(float surface_share, float edge_share) const noexcept {
@@ -134,7 +134,7 @@ class PoseSearch {
     field_.store().ForEach([&](Handle, const auto& cluster) {
       const Vec3 to_eye = eye_o - cluster.centroid_m;
       // What is seen at too flat an angle is not among the samples.
-      if (cluster.mean_normal.dot(to_eye) < kFewestCosine * to_eye.norm()) return;
+      if (cluster.mean_normal.dot(to_eye) < kMinCosine * to_eye.norm()) return;
       const auto samples = static_cast<float>(cluster.samples.size());
       sum += samples * cluster.centroid_m;
       count += samples;

@@ -9,7 +9,7 @@
 /// @file
 /// Rigid-body motions SE(3): exponential, logarithm, adjoint and their derivatives.
 ///
-/// Tangent vectors are ordered (translation rho, rotation theta), as the paper's xi in section V-C.
+/// Tangent vectors are ordered (translation rho, rotation theta), as the paper's xi in section V-D.
 /// Increments are applied on the left: T <- exp(xi) T. Formulas: Sola et al., "A micro Lie theory
 /// for state estimation in robotics" (arXiv:1812.01537), and Barfoot, "State Estimation for
 /// Robotics", section 7.1.
