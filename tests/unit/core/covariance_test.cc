@@ -33,7 +33,8 @@ TEST(RotatedCovariance, IsTheCovarianceOfTheRotatedVectors) {
   const Mat6 covariance = testing::RandomPositiveDefinite(1);
   const Mat6 expected =
       OfMovedDisplacements(covariance, [](const Vec3& first, const Vec3& second, Vec6& moved) {
-        moved << kRotation * first, kRotation * second;
+        moved.head<3>() = kRotation * first;
+        moved.tail<3>() = kRotation * second;
       });
   EXPECT_LT((RotatedCovariance(covariance, kRotation) - expected).norm(), 1e-5F * expected.norm());
 }
@@ -42,7 +43,8 @@ TEST(CovarianceAtPoint, IsTheCovarianceOfTheOtherPointsDisplacement) {
   const Mat6 covariance = testing::RandomPositiveDefinite(2);
   const Mat6 expected =
       OfMovedDisplacements(covariance, [](const Vec3& shift_m, const Vec3& turn_rad, Vec6& moved) {
-        moved << kRotation * (shift_m + turn_rad.cross(kLever_m)), kRotation * turn_rad;
+        moved.head<3>() = kRotation * (shift_m + turn_rad.cross(kLever_m));
+        moved.tail<3>() = kRotation * turn_rad;
       });
   EXPECT_LT((CovarianceAtPoint(covariance, kRotation, kLever_m) - expected).norm(),
             1e-5F * expected.norm());
