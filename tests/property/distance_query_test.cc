@@ -357,7 +357,7 @@ TEST(LocalSurfaceOfACrowd, FieldAtAPoint_DoesNotDependOnTheBoxThatWasGathered) {
   constexpr float kReach_m = 0.008F;
   const Vec3 half_m = Vec3::Constant(0.05F);
   around_all.Gather(-half_m, half_m, kReach_m);
-  EXPECT_TRUE(around_all.HasSampleNear(Vec3(half_m - Vec3::Constant(0.01F)), half_m, 0.001F))
+  EXPECT_TRUE(around_all.HasSampleNear(Vec3(half_m - Vec3::Constant(0.02F)), half_m, 0.001F))
       << "the last of the cells that were gathered";
   std::mt19937 random(3);
   int found = 0;

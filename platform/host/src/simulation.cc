@@ -174,9 +174,10 @@ void Simulation::Render(int index, DepthFrame& frame) {
   const FrameTruth truth = TruthAt(index);
   const int shown = SourceOf(index);
   DrawScene(shown, Vec3d::Zero(), renderer_);
+  PlaceSurfaces(shown);
   const SceneView scene{.inverse_depth_per_m = renderer_.inverse_depth_per_m(),
                         .labels = renderer_.labels(),
-                        .surfaces = Surfaces(shown),
+                        .surfaces = surfaces_,
                         .draw_from = [this, shown](const Vec3d& eye_m, DepthRenderer& renderer) {
                           DrawScene(shown, eye_m, renderer);
                         }};

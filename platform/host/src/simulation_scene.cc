@@ -100,22 +100,22 @@ Plane Simulation::TableAt(double time_s, const FrameTruth& truth) const {
 }
 
 /// What paint is fixed to: the room, each object, an arm or a hand.
-std::vector<PaintedSurface> Simulation::Surfaces(int index) const {
+void Simulation::PlaceSurfaces(int index) {
   const FrameTruth truth = TruthAt(index);
   const double time_s = index / options_.fps;
   // Other frames' names, the same numbers.
   const Transform<Object, Camera, double> room(truth.camera.pose.rotation(),
                                                truth.camera.pose.translation());
-  std::vector<PaintedSurface> surfaces{{SceneLabel::kBackground, room}};
+  surfaces_.clear();
+  surfaces_.push_back({SceneLabel::kBackground, room});
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    surfaces.push_back({SceneLabel::kFirstObject + static_cast<std::uint32_t>(i),
-                        TruthAt(index, i).object.pose.Inverse()});
+    surfaces_.push_back({SceneLabel::kFirstObject + static_cast<std::uint32_t>(i),
+                         TruthAt(index, i).object.pose.Inverse()});
   }
   auto occluder = Transform<Camera, Object, double>();
   if (arm_) occluder = arm_->PoseAt(time_s, truth.object.pose);
   if (hand_) occluder = hand_->PoseAt(time_s, truth.object.pose);
-  surfaces.push_back({SceneLabel::kOccluder, occluder.Inverse()});
-  return surfaces;
+  surfaces_.push_back({SceneLabel::kOccluder, occluder.Inverse()});
 }
 
 }  // namespace disflow::host

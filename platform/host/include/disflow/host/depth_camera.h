@@ -24,7 +24,7 @@ struct SceneView {
   /// 1/z of every pixel, row-major; 0 = nothing there.
   std::span<const float> inverse_depth_per_m;
   std::span<const std::uint32_t> labels;
-  std::vector<PaintedSurface> surfaces;
+  std::span<const PaintedSurface> surfaces;
   /// Draws the scene as seen from another place, with the camera's axes; the renderer is cleared
   /// first.
   std::function<void(const Vec3d& eye_m, DepthRenderer& renderer)> draw_from;

@@ -89,7 +89,7 @@ class Simulation {
   void DrawBodies(int index, const Vec3d& eye_m, DepthRenderer& renderer) const;
   void DrawOccluder(double time_s, const FrameTruth& truth, const Vec3d& eye_m,
                     DepthRenderer& renderer) const;
-  [[nodiscard]] std::vector<PaintedSurface> Surfaces(int index) const;
+  void PlaceSurfaces(int index);
   void DrawMasks(int index);
   void DisturbMasks(int index);
   [[nodiscard]] int SourceOf(int index) const;
@@ -111,6 +111,8 @@ class Simulation {
   std::vector<StampNs> jitter_ns_;
   std::vector<float> depth_m_;
   std::vector<std::uint16_t> depth_mm_;
+  std::vector<PaintedSurface>
+      surfaces_;  ///< Of the frame shown; kept, so that frames allocate nothing.
   std::vector<std::uint8_t> gt_mask_;
   std::vector<std::uint8_t> sloppy_mask_;
   std::vector<std::uint8_t> disturbed_mask_;
