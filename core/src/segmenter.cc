@@ -3,13 +3,17 @@
 
 namespace disflow {
 
-bool BelongsToObject(const SurfaceVote& vote, int pixels, bool masked) noexcept {
-  const bool explained = vote.probed > 0 && 10 * vote.explained >= 3 * vote.probed;
-  if (!masked) return explained || vote.probed == 0;
-  if (2 * vote.masked < pixels) return vote.masked > 0 && explained;
-  // The mask has it already: only a model that plainly contradicts keeps it out.
+bool BelongsToObject(const SurfaceVote& vote) noexcept {
+  return vote.probed == 0 || 10 * vote.explained >= 3 * vote.probed;
+}
+
+bool BelongsToMaskedObject(const SurfaceVote& vote, int pixels) noexcept {
+  if (vote.masked == 0) return false;
+  const bool mostly_outside = 2 * vote.masked < pixels;
   constexpr int kMinProbed = 4;
-  return vote.probed < kMinProbed || 10 * vote.explained >= vote.probed;
+  if (vote.probed < kMinProbed) return !mostly_outside;
+  // Where the mask has most of it, only a model that plainly contradicts keeps it out.
+  return 10 * vote.explained >= (mostly_outside ? 3 : 1) * vote.probed;
 }
 
 PixelBox RegionOfInterest(const DepthFrame& frame, const SegmenterConfig& config) noexcept {

@@ -11,7 +11,14 @@ namespace {
 constexpr float kPositionStdHalf_m = 0.005F;
 constexpr float kRotationStdHalf_rad = 0.05F;
 constexpr float kMinInlierShare = 0.15F;
+// Of what is usual for this object and sensor, after a loss.
 constexpr float kMinRecoveredShare = 0.55F;
+// What is usual follows the frames with a time constant of 20: two thirds of a second at 30 Hz.
+constexpr float kUsualGain = 0.05F;
+
+float InlierShare(const TrackingMonitor::Evidence& evidence) noexcept {
+  return static_cast<float>(evidence.inliers) / static_cast<float>(std::max(evidence.points, 1));
+}
 
 }  // namespace
 
@@ -22,18 +29,29 @@ void TrackingMonitor::Start(const MonitorConfig& config, StampNs stamp_ns) noexc
   frames_in_state_ = 0;
   missed_ = 0;
   last_registered_ns_ = stamp_ns;
+  usual_ = {};
 }
 
 bool TrackingMonitor::Accepts(const Evidence& evidence, StampNs stamp_ns) const noexcept {
-  const float inlier_share =
-      static_cast<float>(evidence.inliers) / static_cast<float>(std::max(evidence.points, 1));
   if (!evidence.registered) return false;
+  const float inlier_share = InlierShare(evidence);
   if (!Doubts(stamp_ns)) {
     return evidence.score >= config_.lost_score && evidence.conflict <= config_.lost_conflict &&
            inlier_share >= kMinInlierShare;
   }
-  return evidence.score >= config_.recovered_score && inlier_share >= kMinRecoveredShare &&
-         evidence.conflict <= config_.degraded_conflict;
+  return Explains(evidence) && evidence.conflict <= config_.degraded_conflict + usual_.conflict;
+}
+
+bool TrackingMonitor::Explains(const Evidence& evidence) const noexcept {
+  // A noisy sensor never shows what a good one does: the bar is what was usual before the loss.
+  return evidence.score >= config_.recovered_score * usual_.score &&
+         InlierShare(evidence) >= kMinRecoveredShare * usual_.inlier_share;
+}
+
+void TrackingMonitor::Usual::Follow(const Evidence& evidence) noexcept {
+  score += kUsualGain * (evidence.score - score);
+  conflict += kUsualGain * (evidence.conflict - conflict);
+  inlier_share += kUsualGain * (std::min(InlierShare(evidence), 1.0F) - inlier_share);
 }
 
 /// Tracking means: three standard deviations are within 2 cm and 10 degrees.
@@ -65,6 +83,7 @@ void TrackingMonitor::Update(const Evidence& evidence, StampNs stamp_ns) noexcep
       state_ = TrackingState::kDegraded;
     }
   } else {
+    if (!Doubts(stamp_ns)) usual_.Follow(evidence);
     missed_ = 0;
     last_registered_ns_ = stamp_ns;
     quality_ = Grade(evidence);

@@ -125,6 +125,43 @@ TEST(DistanceField, ObservationOutsideOfTheMap_IsRefusedAndCounted) {
   EXPECT_TRUE(model.field->empty());
 }
 
+TEST(DistanceField, SurfaceThatIsLookedThrough_IsForgottenSoonerIfItWasNeverSeen) {
+  const auto frames_until_forgotten = [](int frames_seen) {
+    Model model;
+    EXPECT_EQ(model.Insert(kPlace_m), Fusion::kAdded);
+    Handle handle = kNoHandle;
+    model.field->store().ForEach([&](Handle found, const auto&) { handle = found; });
+    for (int i = 0; i < frames_seen; ++i) EXPECT_FALSE(model.field->Witness(handle, true));
+    int frames = 1;
+    while (!model.field->Witness(handle, false)) ++frames;
+    model.field->Forget(handle, model.counters);
+    EXPECT_TRUE(model.Samples().empty());
+    EXPECT_EQ(model.counters.clusters_evicted, 1U);
+    return frames;
+  };
+  const int unseen = frames_until_forgotten(0);
+  EXPECT_GE(unseen, 3) << "a pose that is off for a moment must not cost surface";
+  EXPECT_GT(frames_until_forgotten(3), unseen);
+  // However long it was seen, it can be forgotten within a second.
+  EXPECT_EQ(frames_until_forgotten(1000), frames_until_forgotten(100));
+  EXPECT_LE(frames_until_forgotten(1000), 30);
+}
+
+TEST(DistanceField, KnownSurfaceMayBeRefined_WhereNoneMayBeAdded) {
+  Model model;
+  SurfaceSample sample;
+  sample.position_m = kPlace_m;
+  sample.normal = Vec3::UnitZ();
+  sample.variance_m2 = sample.fused_variance_m2 = 4e-8F;
+  sample.normal_variance = 1e-3F;
+  EXPECT_EQ(model.field->Insert(sample, 1, model.counters), Fusion::kAdded);
+  EXPECT_EQ(model.field->Insert(sample, 2, model.counters, false), Fusion::kMerged);
+  sample.position_m.x() += 0.01F;
+  EXPECT_EQ(model.field->Insert(sample, 2, model.counters, false), Fusion::kRejected);
+  EXPECT_EQ(model.counters.observations_rejected, 1U);
+  EXPECT_EQ(model.field->Insert(sample, 2, model.counters), Fusion::kAdded);
+}
+
 TEST(DistanceField, PoolFull_TheStalestClusterMakesRoom) {
   Model<Few> model;
   const auto place_m = [](int i) {

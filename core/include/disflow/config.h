@@ -18,6 +18,8 @@ struct SegmenterConfig {
   float model_margin_m = 0.03F;
   float explained_m = 0.012F;
   float free_margin_m = 0.012F;
+  int mask_tolerance_px = 8;
+  float mask_delay_s = 0.067F;
   float lost_margin_m = 0.05F;
   int roi_x_px = 0;
   int roi_y_px = 0;
@@ -81,7 +83,7 @@ struct RegistrationConfig {
   int hypothesis_iterations = 3;
   int score_points = 120;
   float gradient_std_rad = 0.025F;
-  float white_noise_share = 0.25F;
+  float white_noise_share = 1.0F;
   float drift_position = 8.0F;
   float drift_rotation = 0.5F;
 };

@@ -40,6 +40,11 @@ constexpr void VisitFields(ConfigType& config, Visitor&& visitor) {
   field("segmenter.free_margin_m", seg.free_margin_m, 0.0, 10.0, "m",
         "surface this far in front of what an earlier view saw behind it is not fused: it is not "
         "the object's; 0 = off");
+  field("segmenter.mask_tolerance_px", seg.mask_tolerance_px, 0, 64, "px",
+        "how far the outline of a given mask may be off, in either direction");
+  field("segmenter.mask_delay_s", seg.mask_delay_s, 0.0, 1.0, "s",
+        "how much older than its image a given mask may be: the tolerance grows by what the object "
+        "moves in the image meanwhile");
   field("segmenter.lost_margin_m", seg.lost_margin_m, 0.0, 1.0, "m",
         "added to model_margin_m while the object is lost");
   field("segmenter.roi_x_px", seg.roi_x_px, 0, 8192, "px", "region of interest, left edge");

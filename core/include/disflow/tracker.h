@@ -74,7 +74,8 @@ class Tracker {
       5;  ///< Frames after a start during which training catches up.
   static constexpr std::uint32_t kFramesUntilVelocity = 3;
   static constexpr int kInitialBudgetFactor = 12;
-  static constexpr float kFade_s = 0.5F;  ///< Time constant of the velocity of an unseen object.
+  static constexpr int kMostForgotten = 64;  ///< Clusters per frame; the rest goes in the next.
+  static constexpr float kFade_s = 0.5F;     ///< Time constant of the velocity of an unseen object.
   static constexpr float kDefinedPoseVariance = 1e-10F;  ///< (0.01 mm)^2 and (0.01 mrad)^2.
   static constexpr float kKnownPoseVariance = 1e-8F;
 
@@ -107,7 +108,10 @@ class Tracker {
                                             StampNs stamp_ns) const noexcept;
   [[nodiscard]] bool IsForeign(const Vec3& x_o) const noexcept;
   void RememberView(const DepthFrame& frame) noexcept;
-  void FuseObservations(Estimate& estimate) noexcept;
+  void ForgetContradicted(const DepthFrame& frame, const PoseObjectFromCamera& T_oc,
+                          Estimate& estimate) noexcept;
+  [[nodiscard]] float ImageMotion(const DepthFrame& frame) const noexcept;
+  void FuseObservations(const DepthFrame& frame, Estimate& estimate) noexcept;
   void MoveTo(StampNs stamp_ns, const PoseObjectFromCamera& T_oc) noexcept;
   void Retrain(Estimate& estimate) noexcept;
   Status Refuse(Status status, const DepthFrame& frame, Estimate& estimate) noexcept;
@@ -130,6 +134,7 @@ class Tracker {
   StampNs observed_ns_ = 0;  ///< When the surface last told the pose in all directions.
 
   typename Segmenter<Limits>::Mask object_mask_;
+  MaskOverrun<typename Segmenter<Limits>::Mask> overrun_;
   StageScratch<Segmenter<Limits>, SurfaceSampler<Limits>> scratch_;
   typename SurfaceSampler<Limits>::Samples samples_;
   typename Registration<Limits>::Edges edges_;

@@ -51,7 +51,8 @@ Status Tracker<Limits>::Process(const DepthFrame& frame, Estimate& estimate,
   // V-F: what was observed becomes part of the model.
   if (status == Status::kOk) {
     RememberView(frame);
-    FuseObservations(estimate);
+    ForgetContradicted(frame, T_oc_, estimate);
+    FuseObservations(frame, estimate);
     stopwatch.Mark(Stage::kFuse);
     Retrain(estimate);
     stopwatch.Mark(Stage::kRetrain);
@@ -76,7 +77,7 @@ Status Tracker<Limits>::Fuse(const DepthFrame& frame, const PoseObjectFromCamera
   }
   if (status == Status::kOk) {
     estimate.score = 1.0F;
-    FuseObservations(estimate);
+    FuseObservations(frame, estimate);
     stopwatch.Mark(Stage::kFuse);
     Retrain(estimate);
     stopwatch.Mark(Stage::kRetrain);
@@ -120,14 +121,18 @@ Status Tracker<Limits>::Observe(const DepthFrame& frame, Estimate& estimate,
   ModelPrior prior;
   if (started_) {
     // A mask is then the better guide.
-    prior = {!(doubtful && frame.mask.given()), doubtful, T_oc_, field_.bounds_min_m(),
-             field_.bounds_max_m()};
+    prior = {!(doubtful && frame.mask.given()),
+             doubtful,
+             T_oc_,
+             field_.bounds_min_m(),
+             field_.bounds_max_m(),
+             ImageMotion(frame)};
   }
   const auto explains = [this](const Vec3& x_c) {
     return IsNearSurface(field_, T_oc_ * x_c, config_.segmenter.explained_m);
   };
   const Status segmented = scratch_.template Begin<Segmenter<Limits>>().Segment(
-      frame, config_.segmenter, prior, explains, object_mask_, estimate.rejected);
+      frame, config_.segmenter, prior, explains, object_mask_, overrun_, estimate.rejected);
   if (segmented != Status::kOk) return segmented;
   const ErodedMask interior(object_mask_, config_.sampler.border_px);
   stopwatch.Mark(Stage::kSegment);
@@ -213,24 +218,59 @@ void Tracker<Limits>::RememberView(const DepthFrame& frame) noexcept {
             T_oc_, object_mask_.box());
 }
 
+/// Surface that was learnt though it was not the object's, such as a piece of the table under a
+/// loose mask, stays behind when the object moves: then it is looked through.
 template <CapacityProfile Limits>
-void Tracker<Limits>::FuseObservations(Estimate& estimate) noexcept {
+void Tracker<Limits>::ForgetContradicted(const DepthFrame& frame, const PoseObjectFromCamera& T_oc,
+                                         Estimate& estimate) noexcept {
+  FixedVector<Handle, kMostForgotten> forgotten;
+  (void)CompareWithImage(field_, T_oc, frame.camera, UsableDepth(frame),
+                         [&](Handle handle, bool seen) {
+                           if (field_.Witness(handle, seen)) (void)forgotten.push_back(handle);
+                         });
+  for (const Handle handle : forgotten) field_.Forget(handle, estimate.rejected);
+}
+
+/// How far the predicted object may have moved in the image since a mask was made that is
+/// segmenter.mask_delay_s old.
+template <CapacityProfile Limits>
+float Tracker<Limits>::ImageMotion(const DepthFrame& frame) const noexcept {
+  constexpr float kNearest_m = 0.1F;
+  const PoseCameraFromObject T_co = T_oc_.Inverse();
+  const Vec3 center_c = T_co * Vec3(0.5F * (field_.bounds_min_m() + field_.bounds_max_m()));
+  const Twist twist = twist_filter_.twist();
+  const Vec3 velocity_mps =
+      twist.linear_mps + twist.angular_rps.cross(Vec3(center_c - T_co.translation()));
+  // The outline turns about the centre; half way out it moves as it does on average.
+  const float lever_m = 0.25F * (field_.bounds_max_m() - field_.bounds_min_m()).norm();
+  const float speed_mps = velocity_mps.norm() + twist.angular_rps.norm() * lever_m;
+  const float pixel_per_m = frame.camera.fx_px / std::max(center_c.z(), kNearest_m);
+  return config_.segmenter.mask_delay_s * speed_mps * pixel_per_m;
+}
+
+template <CapacityProfile Limits>
+void Tracker<Limits>::FuseObservations(const DepthFrame& frame, Estimate& estimate) noexcept {
   const bool first = frame_index_ == 0;
   const int wanted = first ? samples_.size() : std::min(samples_.size(), config_.field.fuse_budget);
   // The subset moves from frame to frame, so that every part of the image gets its turn.
   const int offset = static_cast<int>(frame_index_ % 7U);
   const Mat3& R_oc = T_oc_.rotation();
+  const DepthReader depth = UsableDepth(frame);
   for (int i = 0; i < wanted; ++i) {
     const auto index = (static_cast<std::int64_t>(i) * samples_.size() + offset) / wanted;
     SurfaceSample observation = samples_[std::min(static_cast<int>(index), samples_.size() - 1)];
+    const Vec2 px = frame.camera.Project(observation.position_m);
+    const bool undecided =
+        overrun_.IsReachedFrom(static_cast<int>(std::lround(px.x())),
+                               static_cast<int>(std::lround(px.y())), depth, frame.camera);
     observation.position_m = T_oc_ * observation.position_m;
     observation.normal = R_oc * observation.normal;
     if (IsForeign(observation.position_m)) {
       ++estimate.rejected.observations_rejected;
       continue;
     }
-    (void)field_.Insert(observation, frame_index_,
-                        estimate.rejected);  // the outcome is in the counters
+    // The outcome is in the counters.
+    (void)field_.Insert(observation, frame_index_, estimate.rejected, !undecided);
   }
   for (const EdgePoint& point : edges_) {
     const EdgePoint moved = T_oc_ * point;

@@ -28,10 +28,10 @@ struct Recording {
 
 constexpr std::size_t kFrames = 99;
 constexpr Recording kRecordings[] = {
-    {"DragonGivenMask", "realsense_dragon", "gt", 99, 0.0013},
-    {"DragonSloppyMask", "realsense_dragon", "sloppy", 99, 0.0013},
-    {"MovedDragonGivenMask", "realsense_dragon_moved", "gt", 20, 0.030},
-    {"MovedDragonSloppyMask", "realsense_dragon_moved", "sloppy", 5, 0.045},
+    {"DragonGivenMask", "realsense_dragon", "gt", 99, 0.0022},
+    {"DragonSloppyMask", "realsense_dragon", "sloppy", 99, 0.0018},
+    {"MovedDragonGivenMask", "realsense_dragon_moved", "gt", 97, 0.0025},
+    {"MovedDragonSloppyMask", "realsense_dragon_moved", "sloppy", 85, 0.0040},
 };
 
 void PrintTo(const Recording& recording, std::ostream* stream) { *stream << recording.name; }

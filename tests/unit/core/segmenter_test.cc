@@ -30,7 +30,8 @@ class FirstFrame : public ::testing::Test {
       ++asked_;
       return explains_(x_c);
     };
-    return segmenter_->Segment(scene.frame(), config_, prior_, explains, *object_, counters_);
+    return segmenter_->Segment(scene.frame(), config_, prior_, explains, *object_, overrun_,
+                               counters_);
   }
   /// Of the pixels of a box, those that are the object.
   [[nodiscard]] double Share(const PixelBox& box) const {
@@ -52,6 +53,7 @@ class FirstFrame : public ::testing::Test {
   using SegmenterType = Segmenter<profiles::Micro>;
   std::unique_ptr<SegmenterType> segmenter_ = std::make_unique<SegmenterType>();
   std::unique_ptr<SegmenterType::Mask> object_ = std::make_unique<SegmenterType::Mask>();
+  MaskOverrun<SegmenterType::Mask> overrun_;
 };
 
 DepthScene ObjectOverATable() {
@@ -144,6 +146,44 @@ TEST_F(FirstFrame, DilatedMask_LosesTheBackground) {
   ExpectExactly(kObject);
 }
 
+/// A post that grows out of the table: one surface with it, without a step in depth.
+DepthScene PostOnATable() {
+  DepthScene scene(2.2F);
+  scene.Table();
+  const float foot_m = scene.At(80, 90);
+  return scene.Rectangle({60, 30, 100, 90}, foot_m);
+}
+
+TEST_F(FirstFrame, MaskedObjectThatTouchesItsTable_IsWhatTheMaskCovers) {
+  DepthScene scene = PostOnATable();
+  scene.Mask({60, 30, 100, 90});
+  ASSERT_EQ(Segment(scene), Status::kOk);
+  ExpectExactly({60, 30, 100, 90});
+}
+
+TEST_F(FirstFrame, MaskedObjectThatTouchesItsTable_IsUndecidedAtItsFootAlone) {
+  DepthScene scene = PostOnATable();
+  scene.Mask({60, 30, 100, 90});
+  const DepthFrame frame = scene.frame();
+  const DepthReader depth(frame.depth, 0.1F, 10.0F);
+  ASSERT_EQ(Segment(scene), Status::kOk);
+  const auto undecided = [&](int u, int v) {
+    return overrun_.IsReachedFrom(u, v, depth, frame.camera);
+  };
+  EXPECT_TRUE(undecided(80, 88));
+  EXPECT_FALSE(undecided(80, 50));
+  // The table is in view behind the sides too, but a step in depth away.
+  EXPECT_FALSE(undecided(61, 50));
+  EXPECT_FALSE(undecided(98, 50));
+}
+
+TEST_F(FirstFrame, MaskedObjectInTheAir_IsDecidedEverywhere) {
+  DepthScene scene(2.2F);
+  scene.Rectangle(kObject, kObject_m).Mask(kObject);
+  ASSERT_EQ(Segment(scene), Status::kOk);
+  EXPECT_EQ(overrun_.pixels.count(), 0);
+}
+
 TEST_F(FirstFrame, EmptyMask_IsRefused) {
   DepthScene scene = ObjectOverATable();
   scene.Mask({0, 0, 0, 0});
@@ -209,12 +249,36 @@ TEST_F(LaterFrame, ErodedMask_IsFilledUpFromTheModel) {
   EXPECT_LE(object_->count(), kObject.width() * kObject.height());
 }
 
-TEST_F(LaterFrame, MaskThatCameLate_IsCorrectedByTheModel) {
+TEST_F(LaterFrame, MaskThatCameLate_IsCorrectedByTheModelAsFarAsTheObjectMoved) {
   DepthScene scene = ObjectOverATable();
+  prior_.motion_px = 12.0F;
   scene.Mask({kObject.u_min - 12, kObject.v_min, kObject.u_max - 12, kObject.v_max});
   ASSERT_EQ(Segment(scene), Status::kOk);
   EXPECT_GT(Share(kObject), 0.9);
   EXPECT_LE(object_->count(), kObject.width() * kObject.height());
+}
+
+TEST_F(LaterFrame, KnownSurfaceBeyondTheMasksTolerance_IsNotTheObject) {
+  DepthScene scene = ObjectOverATable();
+  constexpr int kMissing_px = 20;
+  scene.Mask({kObject.u_min, kObject.v_min, kObject.u_max - kMissing_px, kObject.v_max});
+  ASSERT_EQ(Segment(scene), Status::kOk);
+  const int end_px = kObject.u_max - kMissing_px + config_.mask_tolerance_px;
+  EXPECT_EQ(Share({end_px, kObject.v_min, kObject.u_max, kObject.v_max}), 0.0);
+  EXPECT_GT(Share({kObject.u_min, kObject.v_min, end_px, kObject.v_max}), 0.9);
+}
+
+TEST_F(LaterFrame, TableThatTheModelAndTheMaskShare_IsNotFollowedBeyondTheTolerance) {
+  // The model has learnt a piece of the table, which explains the next one.
+  DepthScene scene = PostOnATable();
+  explains_ = [](const Vec3&) { return true; };
+  scene.Mask(kObject);
+  prior_.box_max_m = Vec3::Constant(1.0F);
+  prior_.box_min_m = -prior_.box_max_m;
+  ASSERT_EQ(Segment(scene), Status::kOk);
+  const int reach_px = config_.mask_tolerance_px;
+  EXPECT_LE(object_->count(), (kObject.width() + 2 * reach_px) * (kObject.height() + 2 * reach_px));
+  EXPECT_EQ(Share({0, 90, 160, 120}), 0.0);
 }
 
 TEST_F(LaterFrame, Doubt_WidensTheReach) {

@@ -154,6 +154,30 @@ TEST_F(TrackingMonitorTest, FoundAgain_IsRecoveredForAWhile) {
   EXPECT_EQ(monitor_.state(), TrackingState::kTracking);
 }
 
+TEST_F(TrackingMonitorTest, SearchedPose_NeedsWhatWasUsualBeforeTheLoss) {
+  // A noisy sensor: half of the points are inliers at best, and a tenth of the model conflicts.
+  const Evidence usual{true, 0.85F, 0.10F, 200, 500, 0.002F, 0.02F};
+  const auto found = [&](float share) {
+    return Evidence{true,
+                    share * usual.score,
+                    usual.conflict,
+                    static_cast<int>(share * static_cast<float>(usual.inliers)),
+                    500,
+                    0.002F,
+                    0.02F};
+  };
+  Track();
+  Offer(Evidence{}, config_.lost_after_frames);
+  EXPECT_FALSE(Accepts(usual)) << "far less than this sensor showed";
+  Offer(Good());
+  Offer(usual, 100);
+  Offer(Evidence{}, config_.lost_after_frames);
+  ASSERT_EQ(monitor_.state(), TrackingState::kLost);
+  EXPECT_TRUE(Accepts(usual));
+  EXPECT_TRUE(Accepts(found(0.8F)));
+  EXPECT_FALSE(Accepts(found(0.5F)));
+}
+
 TEST_F(TrackingMonitorTest, LostForLong_ShouldRestart) {
   Track();
   Offer(Evidence{}, 40);

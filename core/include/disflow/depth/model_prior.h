@@ -12,6 +12,8 @@ struct ModelPrior {
   PoseObjectFromCamera T_oc;      ///< Predicted.
   Vec3 box_min_m = Vec3::Zero();  ///< Axis-aligned bounds of the model, object frame.
   Vec3 box_max_m = Vec3::Zero();
+  /// How far the object may have moved in the image since its mask was made.
+  float motion_px = 0.0F;
 };
 
 }  // namespace disflow

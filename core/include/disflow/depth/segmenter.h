@@ -8,6 +8,7 @@
 #include "disflow/config.h"
 #include "disflow/depth/depth_frame.h"
 #include "disflow/depth/depth_reader.h"
+#include "disflow/depth/mask_band.h"
 #include "disflow/depth/model_prior.h"
 #include "disflow/depth/pixel_mask.h"
 #include "disflow/depth/pixel_runs.h"
@@ -24,10 +25,12 @@ struct SurfaceVote {
   int explained = 0;  ///< Of these, those near known surface.
 };
 
-/// Whether a surface is the object's, once there is a model.
-/// @param pixels Of the surface.
-/// @param masked Whether a mask was given.
-[[nodiscard]] bool BelongsToObject(const SurfaceVote& vote, int pixels, bool masked) noexcept;
+/// Whether a surface is the object's, once there is a model and without a mask.
+[[nodiscard]] bool BelongsToObject(const SurfaceVote& vote) noexcept;
+
+/// The same under a mask; the model was only asked about what the mask covers.
+/// @param pixels Of the surface, the part outside of the mask included.
+[[nodiscard]] bool BelongsToMaskedObject(const SurfaceVote& vote, int pixels) noexcept;
 
 /// The part of the image that the settings leave.
 [[nodiscard]] PixelBox RegionOfInterest(const DepthFrame& frame,
@@ -36,7 +39,7 @@ struct SurfaceVote {
 /// Decides which pixels are the object. The depth image is cut into connected surfaces within reach
 /// of the predicted model (or, before there is a model, within range and region of interest); the
 /// model and the mask, if one is given, say which of them are the object. A given mask is believed
-/// to the pixel only where the depth image agrees with it.
+/// within its tolerance, see mask_band.h.
 template <class Limits>
 class Segmenter {
  public:
@@ -44,15 +47,19 @@ class Segmenter {
 
   /// @param explains explains(x_c): whether known surface of the predicted model is near a point of
   /// the camera frame. Only called if prior.known.
+  /// @param overrun Where the object's surfaces go on beyond the mask's tolerance. Empty without a
+  /// mask.
   template <class Explains>
   [[nodiscard]] Status Segment(const DepthFrame& frame, const SegmenterConfig& config,
                                const ModelPrior& prior, Explains&& explains, Mask& object,
-                               Counters& counters) noexcept {
+                               MaskOverrun<Mask>& overrun, Counters& counters) noexcept {
     object.Start(frame.depth.width_px, frame.depth.height_px);
+    overrun.Start(frame.depth.width_px, frame.depth.height_px);
     if (frame.mask.given()) {
       const PixelBox image{0, 0, frame.mask.width_px, frame.mask.height_px};
       CopyMask(frame.mask, image, object);
       if (object.count() == 0) return Status::kEmptyMask;
+      band_.Start(object, config, prior.motion_px);
     }
     if (!frame.mask.given() && config.grow_region == 0) {
       TakeAll(frame, config, object);
@@ -60,6 +67,10 @@ class Segmenter {
       BuildSurfaces(frame, config, prior, object, counters);
       ChooseSurfaces(frame, config, prior, explains, object);
       if (!frame.mask.given() || !IsExact(object)) Redraw(frame, prior, explains, object);
+    }
+    if (frame.mask.given()) {
+      band_.Restrict(object);
+      band_.FindOverrun([this](const auto& visit) { ForEachChosenRun(visit); }, overrun);
     }
     object.Finish();
     return object.count() > 0 ? Status::kOk : Status::kNoValidDepth;
@@ -93,72 +104,74 @@ class Segmenter {
                       const ModelPrior& prior, Explains& explains, const Mask& mask) noexcept {
     votes_ = {};
     const int count = surfaces_.components();
+    if (frame.mask.given()) {
+      ChooseMasked(frame, config, prior, explains, mask);
+      return;
+    }
     if (!prior.known) {
       const int first = ChooseFirst(frame, config);
       if (first < count) vote(first).chosen = true;
       return;
     }
-    const bool masked = frame.mask.given();
-    bool clear = count == 1;  // no need to ask the model
-    if (masked) {
-      surfaces_.ForEachRun([&](int c, const PixelRun& run) {
-        if (c != Surfaces::kNoComponent)
-          vote(c).masked += mask.row(run.v).CountRun(run.u_begin, run.u_end);
-      });
-      clear = clear && 2 * vote(0).masked >= surfaces_.component(0).pixels;
-    }
-    if (!clear && !prior.doubtful) {
+    // A single surface needs no asking.
+    if (count != 1 && !prior.doubtful) {
       const DepthReader depth(frame.depth, config.min_range_m, config.max_range_m);
       surfaces_.ForEachRun([&](int c, const PixelRun& run) {
         if (c != Surfaces::kNoComponent && run.v % kProbeStepPx == 0)
           Probe(depth, frame.camera, explains, run, vote(c));
       });
     }
-    for (int c = 0; c < count; ++c)
-      vote(c).chosen =
-          !prior.doubtful && BelongsToObject(vote(c), surfaces_.component(c).pixels, masked);
-    if (ExplainsTooLittle(masked)) ChooseUnexplained(masked);
-  }
-
-  /// Whether next to nothing of what could be the object is chosen: the prediction is far off.
-  [[nodiscard]] bool ExplainsTooLittle(bool masked) const noexcept {
-    constexpr int kMinPercent = 20;
-    int all = 0;
-    int chosen = 0;
-    for (int c = 0; c < surfaces_.components(); ++c) {
-      const SurfaceVote& v = votes_[static_cast<std::size_t>(c)];
-      const int pixels = masked ? v.masked : surfaces_.component(c).pixels;
-      all += pixels;
-      if (v.chosen) chosen += pixels;
+    int largest = 0;
+    bool any = false;
+    for (int c = 0; c < count; ++c) {
+      vote(c).chosen = !prior.doubtful && BelongsToObject(vote(c));
+      any = any || vote(c).chosen;
+      if (surfaces_.component(c).pixels > surfaces_.component(largest).pixels) largest = c;
     }
-    return masked ? 100 * chosen < kMinPercent * all : chosen == 0;
+    // The prediction is far off.
+    if (!any && count > 0) vote(largest).chosen = true;
   }
 
-  /// Without the model's opinion: what the mask covers most of, or the largest surface.
-  void ChooseUnexplained(bool masked) noexcept {
+  /// Under a mask. What the mask covers of a surface counts, however far it goes on outside: an
+  /// object that touches its table is one surface with it.
+  template <class Explains>
+  void ChooseMasked(const DepthFrame& frame, const SegmenterConfig& config, const ModelPrior& prior,
+                    Explains& explains, const Mask& mask) noexcept {
+    const DepthReader depth(frame.depth, config.min_range_m, config.max_range_m);
+    surfaces_.ForEachRun([&](int c, const PixelRun& run) {
+      if (c == Surfaces::kNoComponent) return;
+      vote(c).masked += mask.row(run.v).CountRun(run.u_begin, run.u_end);
+      if (prior.known && run.v % kProbeStepPx == 0)
+        ProbeMasked(depth, frame.camera, explains, run, mask, vote(c));
+    });
+    const int count = surfaces_.components();
     int most = 0;
-    for (int c = 0; c < surfaces_.components(); ++c) {
-      const int pixels = surfaces_.component(c).pixels;
-      if (masked) vote(c).chosen = 2 * vote(c).masked >= pixels;
-      if (pixels > surfaces_.component(most).pixels) most = c;
+    int all_pixels = 0;
+    int chosen_pixels = 0;
+    for (int c = 0; c < count; ++c) {
+      SurfaceVote& v = vote(c);
+      v.chosen = BelongsToMaskedObject(v, surfaces_.component(c).pixels);
+      all_pixels += v.masked;
+      if (v.chosen) chosen_pixels += v.masked;
+      if (v.masked > vote(most).masked) most = c;
     }
-    if (!masked && surfaces_.components() > 0) vote(most).chosen = true;
+    // Next to nothing of what the mask covers: the prediction is far off, or the object is one
+    // surface with what it stands on and there is no model yet.
+    constexpr int kMinPercent = 20;
+    if (count > 0 && 100 * chosen_pixels < kMinPercent * all_pixels) vote(most).chosen = true;
   }
 
-  /// Before a model exists: with a mask the largest surface within it, else the one under the seed
-  /// pixel, else the nearest.
+  /// Before a model exists and without a mask: what lies under the seed pixel, or the nearest.
   [[nodiscard]] int ChooseFirst(const DepthFrame& frame,
                                 const SegmenterConfig& config) const noexcept {
     const DepthReader depth(frame.depth, config.min_range_m, config.max_range_m);
-    const bool masked = frame.mask.given();
-    if (!masked && config.seed_u_px >= 0 && config.seed_v_px >= 0)
+    if (config.seed_u_px >= 0 && config.seed_v_px >= 0)
       return surfaces_.ComponentAt(config.seed_u_px, config.seed_v_px);
     int best = Surfaces::kNoComponent;
     float best_score = 0.0F;
     for (int c = 0; c < surfaces_.components(); ++c) {
       const PixelRun& first = surfaces_.first_run(c);
-      const float score = masked ? static_cast<float>(surfaces_.component(c).pixels)
-                                 : 1.0F / std::max(depth.At(first.u_begin, first.v), 1e-3F);
+      const float score = 1.0F / std::max(depth.At(first.u_begin, first.v), 1e-3F);
       if (score <= best_score) continue;
       best_score = score;
       best = c;
@@ -180,8 +193,31 @@ class Segmenter {
     }
   }
 
+  /// The same, of what the mask covers: on a grid over the image, so that runs of any length count
+  /// alike.
+  template <class Explains>
+  static void ProbeMasked(const DepthReader& depth, const PinholeCamera& camera, Explains& explains,
+                          const PixelRun& run, const Mask& mask, SurfaceVote& vote) noexcept {
+    constexpr int kOffset = kProbeStepPx / 2;
+    const int first = (run.u_begin - kOffset + kProbeStepPx - 1) / kProbeStepPx;
+    for (int u = first * kProbeStepPx + kOffset; u < run.u_end; u += kProbeStepPx) {
+      if (u < run.u_begin || !mask.row(run.v).Test(u)) continue;
+      const PixelRun pixel{run.v, static_cast<std::int16_t>(u), static_cast<std::int16_t>(u + 1), 0,
+                           0};
+      Probe(depth, camera, explains, pixel, vote);
+    }
+  }
+
+  /// visit(v, u_begin, u_end)
+  template <class Visitor>
+  void ForEachChosenRun(const Visitor& visit) noexcept {
+    surfaces_.ForEachRun([&](int c, const PixelRun& run) {
+      if (c != Surfaces::kNoComponent && vote(c).chosen) visit(run.v, run.u_begin, run.u_end);
+    });
+  }
+
   /// Whether the outline of the mask and that of the chosen surfaces are the same but for the
-  /// pixels that a sensor loses along any outline. Takes away from the mask what is not chosen.
+  /// pixels that a sensor loses along any outline.
   [[nodiscard]] bool IsExact(Mask& mask) noexcept {
     int covered = 0;
     int outside = 0;
@@ -204,8 +240,8 @@ class Segmenter {
            lost < kLostPx * outline + kLostShare * static_cast<float>(mask.count());
   }
 
-  /// Draws the object anew from the chosen surfaces: those parts that the mask covers or the model
-  /// explains.
+  /// Draws the object anew from the chosen surfaces: those parts that the mask covers, or that the
+  /// model explains and the mask's tolerance allows.
   template <class Explains>
   void Redraw(const DepthFrame& frame, const ModelPrior& prior, Explains& explains,
               Mask& object) noexcept {
@@ -237,11 +273,9 @@ class Segmenter {
                               0, 0};
           Probe(depth, frame.camera, explains, part, piece);
         }
-        if (piece.explained > 0) {
-          drawn.SetRun(u, u_end);
-        } else {
-          for (int i = u; i < u_end; ++i)
-            if (mask.Test(i)) drawn.SetRun(i, i + 1);
+        for (int i = u; i < u_end; ++i) {
+          const bool known = piece.explained > 0 && (!masked || band_.Allows(i, run.v));
+          if (known || mask.Test(i)) drawn.SetRun(i, i + 1);
         }
       }
     });
@@ -256,12 +290,14 @@ class Segmenter {
 
   static constexpr int kProbeStepPx = 8;
   static constexpr int kClosingPx = 2;
+  static constexpr int kBeyondBand_px = 8;
   static constexpr float kOutsidePx = 0.5F;
   static constexpr float kLostPx = 1.5F;
   static constexpr float kLostShare = 0.02F;
 
   Surfaces surfaces_;
   PlaneRemoval planes_;
+  MaskBand<Mask> band_;
   PixelBox box_;
   std::array<SurfaceVote, static_cast<std::size_t>(Surfaces::kMaxComponents)> votes_;
 };

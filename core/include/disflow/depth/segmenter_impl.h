@@ -37,12 +37,12 @@ void Segmenter<Limits>::BuildSurfaces(const DepthFrame& frame, const SegmenterCo
                       planes_(v, u_begin, u_end, depth_m);
                     });
   } else if (masked) {
-    box_ = mask.box();
-    surfaces_.Build(depth, box_, config.depth_jump_ratio, kMinPixels,
-                    [&mask](int v, int u_begin, int u_end, float* depth_m) {
-                      for (int u = u_begin; u < u_end; ++u)
-                        if (!mask.row(v).Test(u)) depth_m[u - u_begin] = 0.0F;
-                    });
+    // So much more than the mask that a surface which goes on beyond its tolerance is seen to.
+    const int margin_px = band_.tolerance_px() + kBeyondBand_px;
+    box_ = {std::max(mask.box().u_min - margin_px, 0), std::max(mask.box().v_min - margin_px, 0),
+            std::min(mask.box().u_max + margin_px, mask.width_px()),
+            std::min(mask.box().v_max + margin_px, mask.height_px())};
+    surfaces_.Build(depth, box_, config.depth_jump_ratio, kMinPixels, [](int, int, int, float*) {});
   } else {
     box_ = RegionOfInterest(frame, config);
     const int fewest_pixels = std::max(64, box_.width() * box_.height() / 2000);

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "disflow/config.h"
+#include "disflow/depth/block_contrasts.h"
 #include "disflow/depth/curved_window.h"
 #include "disflow/depth/depth_reader.h"
 #include "disflow/depth/inverse_depth_block.h"
@@ -68,7 +69,7 @@ class SurfaceSampler {
     counters.pixels_out_of_range += static_cast<std::uint32_t>(without_depth);
     noise_std_ = config.inverse_depth_std_per_m > 0.0F
                      ? config.inverse_depth_std_per_m
-                     : std::max(EstimateNoise(), config.min_inverse_depth_std_per_m);
+                     : std::max({PixelNoise(), BlockNoise(), config.min_inverse_depth_std_per_m});
     for (int row = 0; row < rows_; ++row) {
       for (int column = 0; column < columns_; ++column)
         FitBlock(camera, config, column, row, samples, counters);
@@ -185,7 +186,7 @@ class SurfaceSampler {
 
   /// Sensor noise of 1/z per pixel: the median residual of small windows, which curvature and
   /// creases hardly disturb.
-  [[nodiscard]] float EstimateNoise() noexcept {
+  [[nodiscard]] float PixelNoise() noexcept {
     // A block of fewer than 4x4 pixels leaves too few degrees of freedom by itself.
     const BlockWindow window = block_px_ >= 4 ? BlockWindow{0, 0, 0, 0} : BlockWindow{0, 1, 0, 1};
     int count = 0;
@@ -200,10 +201,42 @@ class SurfaceSampler {
       const InverseDepthPlane plane = InverseDepthPlane::Fit(sum);
       if (plane.valid) residuals_[static_cast<std::size_t>(count++)] = plane.residual_variance;
     }
+    return std::sqrt(MedianResidual(count));
+  }
+
+  /// The noise per pixel that explains how far the means of blocks scatter: larger than that of
+  /// single pixels where neighbouring pixels err alike, as with any real sensor.
+  [[nodiscard]] float BlockNoise() noexcept {
+    constexpr int kMinWindows = 8;
+    constexpr float kFull = 0.9F;
+    const auto pixels = static_cast<float>(block_px_ * block_px_);
+    int count = 0;
+    const int stride = std::max(1, columns_ * rows_ / kNoiseBlocks);
+    for (int i = 0; i < columns_ * rows_ && count < kNoiseBlocks; i += stride) {
+      const int column = i % columns_;
+      const int row = i / columns_;
+      if (column < 1 || row < 1 || column + 1 >= columns_ || row + 1 >= rows_) continue;
+      BlockMeans means;
+      float fewest = pixels;
+      for (int k = 0; k < 9; ++k) {
+        const PixelMoments& moments = block(column + k % 3 - 1, row + k / 3 - 1);
+        fewest = std::min(fewest, moments.n);
+        means[static_cast<std::size_t>(k)] =
+            moments.w_reference + moments.w / std::max(moments.n, 1.0F);
+      }
+      if (fewest < kFull * pixels) continue;
+      residuals_[static_cast<std::size_t>(count++)] = ThirdOrderVariance(means);
+    }
+    return count < kMinWindows ? 0.0F
+                               : std::sqrt(MedianResidual(count) / kThirdOrderMedian * pixels);
+  }
+
+  /// Of the first ones; 0 if there are none.
+  [[nodiscard]] float MedianResidual(int count) noexcept {
     if (count == 0) return 0.0F;
     const auto middle = residuals_.begin() + count / 2;
     std::nth_element(residuals_.begin(), middle, residuals_.begin() + count);
-    return std::sqrt(*middle);
+    return *middle;
   }
 
   void FitBlock(const PinholeCamera& camera, const SamplerConfig& config, int column, int row,

@@ -20,6 +20,9 @@ struct Cluster {
   Handle leaf;
   Handle next;  ///< Next cluster of the same cell, or next free one.
   bool used;
+  /// Frames that saw it where it should be, less those that looked through it; bounded, see
+  /// DistanceField::Witness().
+  std::int8_t evidence;
   float dirtiness;           ///< What changed since the last training, in observations.
   std::uint32_t last_frame;  ///< When it was last observed.
   /// How many pieces of surface lie between this one and the first view, each registered to the one
@@ -40,6 +43,7 @@ struct Cluster {
     leaf = in_leaf;
     next = next_in_leaf;
     used = true;
+    evidence = 0;
     dirtiness = 0.0F;
     last_frame = 0;
     generation = 0.0F;

@@ -93,6 +93,12 @@ class ClusterStore {
     tree_.UpdateFacets(cluster.cell, sample.position_m, sample.normal, 1.0F, crease_cos_);
   }
 
+  /// Gives a cluster back to the pool.
+  void Remove(Handle handle, Counters& counters) noexcept {
+    ++counters.clusters_evicted;
+    Release(handle);
+  }
+
   template <class Visitor>
   void ForEach(Visitor&& visit) const noexcept {
     for (int i = 0; i < Limits::kMaxClusters; ++i) {

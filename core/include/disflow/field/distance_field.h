@@ -118,8 +118,9 @@ class DistanceField {
 
   /// Takes an observation into the model: averaged into the sample near it, else as a new sample.
   /// @param observation In the object frame.
-  Fusion Insert(const SurfaceSample& observation, std::uint32_t frame,
-                Counters& counters) noexcept {
+  /// @param may_extend false: known surface is refined, but none is added.
+  Fusion Insert(const SurfaceSample& observation, std::uint32_t frame, Counters& counters,
+                bool may_extend = true) noexcept {
     if (!IsUsable(observation)) {
       ++counters.observations_rejected;
       return Fusion::kRejected;
@@ -129,6 +130,10 @@ class DistanceField {
     if (owner != kNoHandle && IsFrozen(observation, owner, nearest)) {
       store_[owner].last_frame = frame;
       return Fusion::kFrozen;
+    }
+    if (owner == kNoHandle && !may_extend) {
+      ++counters.observations_rejected;
+      return Fusion::kRejected;
     }
     const Match match = FindMatch(observation.position_m, observation.normal,
                                   config_.merge_radius_m * 2.0F, config_.crease_cos);
@@ -145,6 +150,16 @@ class DistanceField {
     }
     return Add(observation, frame, counters);
   }
+
+  /// Takes note of a registered frame that saw a cluster where it should be, or looked through it.
+  /// @return Whether it was looked through so much oftener that it is not the object's: Forget() it.
+  [[nodiscard]] bool Witness(Handle handle, bool seen) noexcept {
+    std::int8_t& evidence = store_[handle].evidence;
+    if (seen && evidence < kMostEvidence) ++evidence;
+    if (!seen && evidence > -kMostContradictions) --evidence;
+    return evidence <= -kMostContradictions;
+  }
+  void Forget(Handle handle, Counters& counters) noexcept { store_.Remove(handle, counters); }
 
   /// Trains up to `budget` local GPs, those that changed most first. @return How many were trained.
   int Retrain(int budget, Counters& counters) noexcept;
@@ -169,6 +184,12 @@ class DistanceField {
   }
 
  private:
+  /// Frames: a fifth of a second at 30 Hz. A pose that is off for a moment contradicts good surface
+  /// for a few frames; foreign surface that was learnt is contradicted from then on.
+  static constexpr std::int8_t kMostContradictions = 6;
+  /// So that what was seen for long can still be forgotten, in twice that time.
+  static constexpr std::int8_t kMostEvidence = 8;
+
   /// Finite, with a unit normal and positive variances. Written so that NaN is not.
   [[nodiscard]] static bool IsUsable(const SurfaceSample& observation) noexcept {
     constexpr float kLargest = 1e6F;

@@ -32,17 +32,18 @@ struct ModelAgreement {
 };
 
 /// Looks up the centres of the model's local GPs that face the camera.
-template <class Field>
+/// @param on_decided on_decided(handle, seen) for each cluster that was seen, or looked through.
+template <class Field, class OnDecided>
 [[nodiscard]] ModelAgreement CompareWithImage(const Field& field, const PoseObjectFromCamera& T_oc,
-                                              const PinholeCamera& camera,
-                                              const DepthReader& depth) noexcept {
+                                              const PinholeCamera& camera, const DepthReader& depth,
+                                              OnDecided&& on_decided) noexcept {
   constexpr float kMinCosine = 0.3F;
   constexpr float kToleranceFloor_m = 0.006F;
   constexpr float kTolerancePerMetre = 0.01F;
   const PoseCameraFromObject T_co = T_oc.Inverse();
   const Vec3& eye_o = T_oc.translation();
   ModelAgreement agreement;
-  field.store().ForEach([&](auto, const auto& cluster) {
+  field.store().ForEach([&](auto handle, const auto& cluster) {
     const Vec3 to_eye = eye_o - cluster.centroid_m;
     if (cluster.mean_normal.dot(to_eye) < kMinCosine * to_eye.norm()) return;
     const Vec3 x_c = T_co * cluster.centroid_m;
@@ -60,11 +61,20 @@ template <class Field>
       ++agreement.hidden;
     } else if (depth_m > x_c.z() + tolerance_m) {
       ++agreement.contradicted;
+      on_decided(handle, false);
     } else {
       ++agreement.seen;
+      on_decided(handle, true);
     }
   });
   return agreement;
+}
+
+template <class Field>
+[[nodiscard]] ModelAgreement CompareWithImage(const Field& field, const PoseObjectFromCamera& T_oc,
+                                              const PinholeCamera& camera,
+                                              const DepthReader& depth) noexcept {
+  return CompareWithImage(field, T_oc, camera, depth, [](auto, bool) {});
 }
 
 }  // namespace disflow

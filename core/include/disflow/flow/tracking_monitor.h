@@ -25,6 +25,9 @@ class TrackingMonitor {
   /// Whether a registration result is good enough to be believed at all. After frames that were
   /// not, more is asked for: the pose was searched for instead of followed.
   [[nodiscard]] bool Accepts(const Evidence& evidence, StampNs stamp_ns) const noexcept;
+  /// Whether the model at a pose explains the frame about as well as usual, whatever else the model
+  /// claims.
+  [[nodiscard]] bool Explains(const Evidence& evidence) const noexcept;
   void Update(const Evidence& evidence, StampNs stamp_ns) noexcept;
 
   [[nodiscard]] TrackingState state() const noexcept { return state_; }
@@ -44,11 +47,21 @@ class TrackingMonitor {
   static constexpr int kRecoveryFrames = 5;
   static constexpr StampNs kLongGap_ns = 150'000'000;
 
+  /// Averages over the frames that were tracked, beginning with what a perfect sensor shows.
+  struct Usual {
+    float score = 1.0F;
+    float conflict = 0.0F;
+    float inlier_share = 1.0F;
+
+    void Follow(const Evidence& evidence) noexcept;
+  };
+
   [[nodiscard]] bool Trusts(const Evidence& evidence) const noexcept;
   [[nodiscard]] TrackingState AfterRegistered(const Evidence& evidence) const noexcept;
   [[nodiscard]] std::uint8_t Grade(const Evidence& evidence) const noexcept;
 
   MonitorConfig config_{};
+  Usual usual_;
   TrackingState state_ = TrackingState::kInitialising;
   std::uint8_t quality_ = 0;
   int frames_in_state_ = 0;

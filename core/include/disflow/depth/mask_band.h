@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "disflow/config.h"
+#include "disflow/depth/depth_reader.h"
+#include "disflow/depth/pixel_mask.h"
+#include "disflow/geometry/pinhole_camera.h"
+
+namespace disflow {
+
+/// The dilation of a mask by a square of (2 radius + 1) pixels.
+/// @param source After Finish().
+/// @param out Another mask; started anew and finished.
+template <class Mask>
+void Dilate(const Mask& source, int radius_px, Mask& out) noexcept {
+  out.Start(source.width_px(), source.height_px());
+  const PixelBox& box = source.box();
+  if (!box.empty()) {
+    const int w_begin = std::max(box.u_min - radius_px, 0) / Mask::kBits;
+    const int w_end =
+        (std::min(box.u_max + radius_px, source.width_px()) + Mask::kBits - 1) / Mask::kBits;
+    const int v_end = std::min(box.v_max + radius_px, source.height_px());
+    for (int v = std::max(box.v_min - radius_px, 0); v < v_end; ++v) {
+      auto& bits = out.row(v);
+      const int last = std::min(v + radius_px, box.v_max - 1);
+      for (int r = std::max(v - radius_px, box.v_min); r <= last; ++r) {
+        for (int w = w_begin; w < w_end; ++w) bits[w] |= source.row(r)[w];
+      }
+      for (int step = 0; step < radius_px; ++step)
+        bits.Neighbours(w_begin, w_end, [](auto own, auto a, auto b) { return own | a | b; });
+    }
+  }
+  out.Finish();
+}
+
+/// Where the object's surfaces go on beyond the tolerance of a given mask.
+template <class Mask>
+struct MaskOverrun {
+  Mask pixels;
+  int reach_px = 0;  ///< From a pixel beyond the tolerance to one that is the object for sure.
+
+  void Start(int width_px, int height_px) noexcept {
+    pixels.Start(width_px, height_px);
+    reach_px = 0;
+  }
+
+  /// Whether the surface at a pixel may go on to beyond the tolerance, as an object's foot does
+  /// onto its table: whether there is such surface nearby, in space and not only in the image.
+  /// There only the mask, which may be off by its tolerance, says where the object ends.
+  [[nodiscard]] bool IsReachedFrom(int u, int v, const DepthReader& depth,
+                                   const PinholeCamera& camera) const noexcept {
+    const float here_m = depth.AtOrZero(u, v);
+    if (pixels.count() == 0 || here_m <= 0.0F) return false;
+    const float rise_m = kMostSlope * here_m / camera.fx_px;
+    for (int step = 1; step <= reach_px; ++step) {
+      for (int k = 0; k < 9; ++k) {
+        const int u_there = u + step * (k % 3 - 1);
+        const int v_there = v + step * (k / 3 - 1);
+        if (!pixels.Test(u_there, v_there)) continue;
+        const float there_m = depth.AtOrZero(u_there, v_there);
+        if (std::abs(there_m - here_m) <= rise_m * static_cast<float>(step)) return true;
+      }
+    }
+    return false;
+  }
+
+ private:
+  /// In metres along the ray per metre across it: that of the flattest surface that is sampled
+  /// (sampler.min_cos_incidence).
+  static constexpr float kMostSlope = 8.0F;
+};
+
+/// A given mask is a promise with a tolerance. Inside of it the depth image and the model may
+/// object; outside of it they may add, but only within the tolerance.
+template <class Mask>
+class MaskBand {
+ public:
+  /// @param motion_px How far the object may have moved in the image since the mask was made.
+  void Start(const Mask& given, const SegmenterConfig& config, float motion_px) noexcept {
+    const float wanted_px = static_cast<float>(config.mask_tolerance_px) + motion_px;
+    tolerance_px_ =
+        static_cast<int>(std::lround(std::clamp(wanted_px, 0.0F, float{kMostTolerance_px})));
+    Dilate(given, tolerance_px_, allowed_);
+  }
+
+  [[nodiscard]] int tolerance_px() const noexcept { return tolerance_px_; }
+  [[nodiscard]] bool Allows(int u, int v) const noexcept { return allowed_.row(v).Test(u); }
+
+  /// Takes away what lies beyond the tolerance.
+  void Restrict(Mask& object) const noexcept {
+    for (int v = object.box().v_min; v < object.box().v_max; ++v) {
+      for (int w = 0; w < Mask::Row::kWords; ++w) object.row(v)[w] &= allowed_.row(v)[w];
+    }
+  }
+
+  /// @param for_each_run for_each_run(visit): visit(v, u_begin, u_end) for every run of pixels of
+  /// the object's surfaces.
+  /// @param overrun After Start().
+  template <class ForEachRun>
+  void FindOverrun(ForEachRun&& for_each_run, MaskOverrun<Mask>& overrun) const noexcept {
+    for_each_run(
+        [&](int v, int u_begin, int u_end) { overrun.pixels.row(v).SetRun(u_begin, u_end); });
+    for (int v = 0; v < allowed_.height_px(); ++v) {
+      for (int w = 0; w < Mask::Row::kWords; ++w) overrun.pixels.row(v)[w] &= ~allowed_.row(v)[w];
+    }
+    overrun.pixels.Finish();
+    // From the band's outer border across the mask's outline, and as far again.
+    overrun.reach_px = 2 * tolerance_px_ + 1;
+  }
+
+ private:
+  static constexpr int kMostTolerance_px = 64;
+
+  Mask allowed_;
+  int tolerance_px_ = 0;
+};
+
+}  // namespace disflow
