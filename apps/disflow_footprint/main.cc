@@ -43,8 +43,8 @@ struct Samples {
 };
 template <class L>
 struct Edges {
-  static constexpr std::size_t kBytes =
-      sizeof(typename disflow::Registration<L>::Edges) + sizeof(disflow::EdgeMap<L::kMaxModelEdges>);
+  static constexpr std::size_t kBytes = sizeof(typename disflow::Registration<L>::Edges) +
+                                        sizeof(disflow::EdgeMap<L::kMaxModelEdges>);
 };
 template <class L>
 struct FreeSpace {

@@ -35,8 +35,7 @@ class ObjectOutputs {
   /// The flow of the frame tracked last. @throws Failure kOutputFailed, once.
   void WriteFlow(const TrackedObject& object, const FrameResult& result);
   /// The surface. @throws Failure kOutputFailed.
-  void WriteMesh(TrackedObject& object, double resolution_m,
-                 std::vector<std::string>& written);
+  void WriteMesh(TrackedObject& object, double resolution_m, std::vector<std::string>& written);
 
   /// @param written Gets a line per output.
   void Finish(std::vector<std::string>& written);

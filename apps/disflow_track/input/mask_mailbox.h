@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "disflow/saturating.h"
 #include "disflow/posix/mask_source.h"
 #include "disflow/posix/triple_buffer.h"
+#include "disflow/saturating.h"
 
 namespace disflow::apps {
 

@@ -20,8 +20,8 @@ namespace disflow::apps {
   return surface;
 }
 
-/// Asks a model for distances and draws it, both with the same idea of where surface is known. Holds
-/// the memory that this needs; not for two threads at once.
+/// Asks a model for distances and draws it, both with the same idea of where surface is known.
+/// Holds the memory that this needs; not for two threads at once.
 template <class Limits>
 class ModelReader {
  public:

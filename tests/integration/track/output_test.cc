@@ -12,7 +12,6 @@
 #include <filesystem>
 #include <string>
 #include <thread>
-#include <thread>
 #include <vector>
 
 #include "child_process.h"

@@ -152,7 +152,7 @@ class DistanceField {
   }
 
   /// Takes note of a registered frame that saw a cluster where it should be, or looked through it.
-  /// @return Whether it was looked through so much oftener that it is not the object's: Forget() it.
+  /// @return Whether it was looked through so much oftener that it is foreign: Forget() it.
   [[nodiscard]] bool Witness(Handle handle, bool seen) noexcept {
     std::int8_t& evidence = store_[handle].evidence;
     if (seen && evidence < kMostEvidence) ++evidence;

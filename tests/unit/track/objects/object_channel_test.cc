@@ -136,7 +136,8 @@ TEST_F(ObjectChannelTest, ReaderInAThreadOfItsOwn_IsWokenAndNeverSeesAHalfCopy) 
   constexpr std::int64_t kLong_ns = 60'000'000'000;
   std::int64_t last = -1;
   int snapshots = 0;
-  // Asked for before there are frames: all of them may be over when the listener gets its first turn.
+  // Asked for before there are frames: all of them may be over when the listener gets its first
+  // turn.
   reader.RequestSnapshot();
   std::thread listener([&] {
     FrameResult result;
