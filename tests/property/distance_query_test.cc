@@ -335,8 +335,8 @@ std::unique_ptr<EdgeField> Crowded() {
   std::mt19937 random(2);
   for (int cell = 0; cell < 125; ++cell) {
     const Vec3 corner_m =
-        0.02F * Vec3(static_cast<float>(cell % 5) - 2.5F, static_cast<float>(cell / 5 % 5) - 2.5F,
-                     static_cast<float>(cell / 25) - 2.5F);
+        0.02F * Vec3(static_cast<float>(cell % 5) - 2.0F, static_cast<float>(cell / 5 % 5) - 2.0F,
+                     static_cast<float>(cell / 25) - 2.0F);
     for (int side = 0; side < 5; ++side) {
       const Vec3 normal = (side % 2 == 0 ? 1.0F : -1.0F) * Vec3::Unit(side / 2);
       for (int i = 0; i < 4; ++i) {
@@ -357,7 +357,7 @@ TEST(LocalSurfaceOfACrowd, FieldAtAPoint_DoesNotDependOnTheBoxThatWasGathered) {
   constexpr float kReach_m = 0.008F;
   const Vec3 half_m = Vec3::Constant(0.05F);
   around_all.Gather(-half_m, half_m, kReach_m);
-  EXPECT_TRUE(around_all.HasSampleNear(Vec3(half_m - Vec3::Constant(0.02F)), half_m, 0.001F))
+  EXPECT_TRUE(around_all.HasSampleNear(Vec3::Constant(0.04F), Vec3::Constant(0.06F), 0.001F))
       << "the last of the cells that were gathered";
   std::mt19937 random(3);
   int found = 0;

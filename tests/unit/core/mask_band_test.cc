@@ -137,8 +137,8 @@ TEST_F(OverrunTest, SurfaceBehindAStepInDepth_DoesNotCount) {
   Look(kMasked, {kMasked.u_min, kMasked.v_min, kMasked.u_max, 110});
   const int v = kMasked.v_max - kTolerance_px;
   ASSERT_TRUE(IsReachedFrom(80, v));
-  // What goes on below is now another thing, nearer to the camera.
-  scene_.Rectangle({kMasked.u_min, kMasked.v_max, kMasked.u_max, 110}, 0.5F);
+  // What goes on below is now another thing, far behind.
+  scene_.Rectangle({kMasked.u_min, kMasked.v_max, kMasked.u_max, 110}, 2.5F);
   EXPECT_FALSE(IsReachedFrom(80, v));
 }
 

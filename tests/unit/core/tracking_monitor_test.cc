@@ -70,9 +70,9 @@ TEST_F(TrackingMonitorTest, FollowedPose_IsRefusedOnLess) {
 
 TEST_F(TrackingMonitorTest, SearchedPose_NeedsMore) {
   Track();
-  const Evidence weak_score = With([](Evidence& e) { e.score = 0.74F; });
+  const Evidence weak_score = With([](Evidence& e) { e.score = 0.70F; });
   const Evidence some_conflict = With([](Evidence& e) { e.conflict = 0.16F; });
-  const Evidence few_inliers = With([](Evidence& e) { e.inliers = 270; });
+  const Evidence few_inliers = With([](Evidence& e) { e.inliers = 240; });
   for (const Evidence& evidence : {weak_score, some_conflict, few_inliers})
     EXPECT_TRUE(Accepts(evidence));
   Offer(Evidence{});
