@@ -223,16 +223,11 @@ void Tracker<Limits>::RememberView(const DepthFrame& frame) noexcept {
 template <CapacityProfile Limits>
 void Tracker<Limits>::ForgetContradicted(const DepthFrame& frame, const PoseObjectFromCamera& T_oc,
                                          Estimate& estimate) noexcept {
-  // The subset of samples that is fused comes round in so many frames.
-  constexpr std::uint32_t kRecentFrames = 7;
   FixedVector<Handle, kMostForgotten> forgotten;
-  (void)CompareWithImage(
-      field_, T_oc, frame.camera, UsableDepth(frame), [&](Handle handle, bool seen) {
-        // What was observed just now is there, though on a narrow part its centre lies beside it.
-        const bool observed = field_.store()[handle].last_frame + kRecentFrames >= frame_index_;
-        if (!seen && observed) return;
-        if (field_.Witness(handle, seen)) (void)forgotten.push_back(handle);
-      });
+  (void)CompareWithImage(field_, T_oc, frame.camera, UsableDepth(frame),
+                         [&](Handle handle, bool seen) {
+                           if (field_.Witness(handle, seen)) (void)forgotten.push_back(handle);
+                         });
   for (const Handle handle : forgotten) field_.Forget(handle, estimate.rejected);
 }
 
