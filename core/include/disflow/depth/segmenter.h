@@ -70,7 +70,7 @@ class Segmenter {
     }
     if (frame.mask.given()) {
       band_.Restrict(object);
-      band_.FindOverrun([this](const auto& visit) { ForEachChosenRun(visit); }, overrun);
+      band_.FindOverrun([this](const auto& visit) { this->ForEachChosenRun(visit); }, overrun);
     }
     object.Finish();
     return object.count() > 0 ? Status::kOk : Status::kNoValidDepth;
