@@ -99,7 +99,7 @@ TEST(Frame, RoundTrip_KeepsEveryFieldOfEveryMessage) {
 
 /// A message that nobody entered into KnownMessages.
 struct LeftOut : Heartbeat {
-  static constexpr std::uint32_t kId = 0xD15F1F;
+  [[maybe_unused]] static constexpr std::uint32_t kId = 0xD15F1F;
 };
 
 template <class Message>

@@ -125,7 +125,8 @@ TEST(LogWriter, TextTooLong_IsCutAndStaysALine) {
 }
 
 TEST(Console, MessageOfAnyLength_IsSaidWholeOnOneLine) {
-  for (const std::size_t length : {0, 1, 1000, 1007, 1008, 1009, 1010, 1024, 5000}) {
+  for (const std::size_t length :
+       std::vector<std::size_t>{0, 1, 1000, 1007, 1008, 1009, 1010, 1024, 5000}) {
     const std::string message(length, 'x');
     testing::internal::CaptureStderr();
     Console(false).Say(message);
