@@ -19,7 +19,7 @@ done
 # What the package for each processor must have; docs/deploy.md says what the ARM presets leave out and why.
 features() {
   case "$architecture" in
-    arm64) echo "v4l2 libcamera serial udp mavlink dds" ;;
+    arm64) echo "v4l2 libcamera serial udp mavlink" ;;
     armhf) echo "v4l2 serial udp mavlink" ;;
     *) echo "v4l2 libcamera serial udp mavlink dds view" ;;
   esac
