@@ -51,7 +51,6 @@ Status Tracker<Limits>::Process(const DepthFrame& frame, Estimate& estimate,
   // V-F: what was observed becomes part of the model.
   if (status == Status::kOk) {
     RememberView(frame);
-    ForgetContradicted(frame, T_oc_, estimate);
     FuseObservations(frame, estimate);
     stopwatch.Mark(Stage::kFuse);
     Retrain(estimate);

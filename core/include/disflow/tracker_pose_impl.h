@@ -67,12 +67,11 @@ Status Tracker<Limits>::Conclude(const DepthFrame& frame, Status observed, const
   const bool near = !monitor_.Doubts(frame.stamp_ns) || IsSameObjectFrame(frame, aligned.T_oc);
   const bool accepted =
       observed == Status::kOk && near && monitor_.Accepts(evidence, frame.stamp_ns);
-  // Foreign surface in the model contradicts the true pose: unless it is forgotten here too, it
-  // keeps the object lost.
-  if (observed == Status::kOk && near && !accepted && evidence.registered &&
-      monitor_.Explains(evidence)) {
-    ForgetContradicted(frame, aligned.T_oc, estimate);
-  }
+  // Foreign surface in the model contradicts the true pose: unless it is forgotten at poses that
+  // are refused for that alone, too, it keeps the object lost.
+  const bool explained =
+      observed == Status::kOk && near && evidence.registered && monitor_.Explains(evidence);
+  if (accepted || explained) ForgetContradicted(frame, aligned.T_oc, estimate);
   evidence.registered = accepted;
   monitor_.Update(evidence, frame.stamp_ns);
   if (accepted) {

@@ -185,12 +185,18 @@ class Segmenter {
                     const PixelRun& run, SurfaceVote& vote) noexcept {
     for (int u = run.u_begin + std::min(kProbeStepPx, run.length()) / 2; u < run.u_end;
          u += kProbeStepPx) {
-      const float depth_m = depth.At(u, run.v);
-      if (depth_m <= 0.0F) continue;
-      ++vote.probed;
-      if (explains(camera.BackProject(static_cast<float>(u), static_cast<float>(run.v), depth_m)))
-        ++vote.explained;
+      ProbePixel(depth, camera, explains, u, run.v, vote);
     }
+  }
+
+  template <class Explains>
+  static void ProbePixel(const DepthReader& depth, const PinholeCamera& camera, Explains& explains,
+                         int u, int v, SurfaceVote& vote) noexcept {
+    const float depth_m = depth.At(u, v);
+    if (depth_m <= 0.0F) return;
+    ++vote.probed;
+    if (explains(camera.BackProject(static_cast<float>(u), static_cast<float>(v), depth_m)))
+      ++vote.explained;
   }
 
   /// The same, of what the mask covers: on a grid over the image, so that runs of any length count
@@ -201,10 +207,7 @@ class Segmenter {
     constexpr int kOffset = kProbeStepPx / 2;
     const int first = (run.u_begin - kOffset + kProbeStepPx - 1) / kProbeStepPx;
     for (int u = first * kProbeStepPx + kOffset; u < run.u_end; u += kProbeStepPx) {
-      if (u < run.u_begin || !mask.row(run.v).Test(u)) continue;
-      const PixelRun pixel{run.v, static_cast<std::int16_t>(u), static_cast<std::int16_t>(u + 1), 0,
-                           0};
-      Probe(depth, camera, explains, pixel, vote);
+      if (mask.row(run.v).Test(u)) ProbePixel(depth, camera, explains, u, run.v, vote);
     }
   }
 
