@@ -9,7 +9,7 @@ import { chromium } from 'playwright-core';
 import { startTrack } from './track.mjs';
 
 const kPatience_ms = 90_000;
-const kDemo = 'sim:bottle?frames=20000&motion=fast&noise=d415';
+const kDemo = 'sim:bottle?frames=20000&motion=fast&noise=white';
 const pictures = process.env.DISFLOW_PICTURES;
 
 let browser;
