@@ -110,6 +110,7 @@ void Counters::Accumulate(const Counters& other) noexcept {
   AddSaturating(frames, other.frames);
   AddSaturating(frames_rejected, other.frames_rejected);
   AddSaturating(frames_unregistered, other.frames_unregistered);
+  AddSaturating(images_repeated, other.images_repeated);
   AddSaturating(pixels_out_of_range, other.pixels_out_of_range);
   AddSaturating(runs_dropped, other.runs_dropped);
   AddSaturating(blocks_sparse, other.blocks_sparse);

@@ -33,6 +33,8 @@ const char* Describe(Status status) noexcept {
       return "the frame could not be registered to the model";
     case Status::kOutOfBounds:
       return "outside of the mapped volume";
+    case Status::kRepeatedImage:
+      return "the depth image is the last one once more";
     case Status::kCapacityExceeded:
       return "a fixed-size store is full";
     case Status::kInvalidUri:

@@ -33,6 +33,8 @@ const char* StatusToken(Status status) noexcept {
       return "registration_failed";
     case Status::kOutOfBounds:
       return "out_of_bounds";
+    case Status::kRepeatedImage:
+      return "repeated_image";
     case Status::kCapacityExceeded:
       return "capacity_exceeded";
     case Status::kInvalidUri:

@@ -13,7 +13,8 @@ struct NamedCounter {
   std::uint32_t Counters::*value;
 };
 
-constexpr std::array<NamedCounter, 14> kCounters = {{
+constexpr std::array<NamedCounter, 15> kCounters = {{
+    {"images repeated", &Counters::images_repeated},
     {"pixels out of range", &Counters::pixels_out_of_range},
     {"runs dropped", &Counters::runs_dropped},
     {"blocks sparse", &Counters::blocks_sparse},

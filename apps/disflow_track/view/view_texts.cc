@@ -14,6 +14,7 @@ Json CountersOf(const Counters& totals) {
   return {{"frames", totals.frames},
           {"frames refused", totals.frames_rejected},
           {"frames predicted only", totals.frames_unregistered},
+          {"images repeated", totals.images_repeated},
           {"pixels out of range", totals.pixels_out_of_range},
           {"pixel runs dropped", totals.runs_dropped},
           {"blocks sparse", totals.blocks_sparse},

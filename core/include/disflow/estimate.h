@@ -26,6 +26,9 @@ struct Counters {
   std::uint32_t frames = 0;               ///< Frames given to Process().
   std::uint32_t frames_rejected = 0;      ///< Frames refused with a Status before registration.
   std::uint32_t frames_unregistered = 0;  ///< Frames whose pose is only predicted.
+  /// Images that were the one before once more. Where the object should have moved meanwhile,
+  /// nothing but the prediction is made of them.
+  std::uint32_t images_repeated = 0;
   std::uint32_t pixels_out_of_range =
       0;  ///< Object pixels without depth, not finite or outside of the range gate.
   std::uint32_t runs_dropped = 0;    ///< Pixel runs beyond the segmenter's capacity.
@@ -49,7 +52,7 @@ struct Counters {
   /// Samples that a local GP could have been trained on, beyond those that were considered.
   std::uint32_t candidates_dropped = 0;
 
-  static constexpr int kCount = 18;
+  static constexpr int kCount = 19;
   /// Adds `other` to this, saturating.
   void Accumulate(const Counters& other) noexcept;
 };

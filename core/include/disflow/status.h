@@ -30,6 +30,7 @@ enum class [[nodiscard]] Status : std::uint8_t{
         17,             ///< The frame could not be registered to the model; the pose is predicted.
     kOutOfBounds = 18,  ///< A query or sample lies outside of the mapped volume.
     kCapacityExceeded = 19,  ///< A fixed-size store is full; what was dropped is counted.
+    kRepeatedImage = 20,     ///< The depth image is the last one once more; the pose is predicted.
 
     // Hal and platform: devices, files, links.
     kInvalidUri = 32,        ///< A device, sequence or link address cannot be parsed.

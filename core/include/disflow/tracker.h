@@ -4,12 +4,14 @@
 #include "disflow/config.h"
 #include "disflow/depth/depth_frame.h"
 #include "disflow/depth/depth_reader.h"
+#include "disflow/depth/image_repeats.h"
 #include "disflow/depth/seen_space.h"
 #include "disflow/depth/segmenter.h"
 #include "disflow/depth/surface_sampler.h"
 #include "disflow/estimate.h"
 #include "disflow/field/distance_field.h"
 #include "disflow/field/edge_map.h"
+#include "disflow/flow/recognition.h"
 #include "disflow/flow/registration.h"
 #include "disflow/flow/tracking_monitor.h"
 #include "disflow/flow/twist_filter.h"
@@ -21,6 +23,7 @@
 namespace disflow {
 
 struct ModelAgreement;
+struct PoseSearchPrior;
 
 /// Tracks and reconstructs one rigid object (the paper's section V). Owns all of its memory by
 /// value and never allocates: `static Tracker<profiles::Edge> tracker;` lives in .bss. Not
@@ -73,13 +76,26 @@ class Tracker {
   static constexpr std::uint32_t kInitialFrames =
       5;  ///< Frames after a start during which training catches up.
   static constexpr std::uint32_t kFramesUntilVelocity = 3;
+  /// Frames in which a lost object is looked for near where it should be, before it is looked for
+  /// turned anyhow.
+  static constexpr int kLocalSearches = 2;
   static constexpr int kInitialBudgetFactor = 12;
   static constexpr int kMostForgotten = 64;  ///< Clusters per frame; the rest goes in the next.
   static constexpr float kFade_s = 0.5F;     ///< Time constant of the velocity of an unseen object.
+  /// Longer repeats are no hiccup of a driver: the scene stands still, or the camera hangs.
+  static constexpr StampNs kLongestHiccup_ns = 100'000'000;
   static constexpr float kDefinedPoseVariance = 1e-10F;  ///< (0.01 mm)^2 and (0.01 mrad)^2.
   static constexpr float kKnownPoseVariance = 1e-8F;
 
   using Aligned = typename Registration<Limits>::Result;
+
+  struct PoseCovariance {
+    bool solved = false;
+    Mat6 white = Mat6::Zero();     ///< What changes from frame to frame.
+    Mat6 reported = Mat6::Zero();  ///< With the drift of the model since its first view.
+    /// Of the twist, along what no surface tells.
+    Mat6 twist_unobserved = Mat6::Zero();
+  };
 
   void Begin(const DepthFrame& frame, Estimate& estimate) noexcept;
   [[nodiscard]] Status Check(const DepthFrame& frame) const noexcept;
@@ -93,24 +109,22 @@ class Tracker {
   [[nodiscard]] Aligned Register(const DepthFrame& frame, Estimate& estimate) noexcept;
   [[nodiscard]] Status Conclude(const DepthFrame& frame, Status observed, const Aligned& aligned,
                                 Estimate& estimate) noexcept;
+  void Follow(StampNs stamp_ns, const Aligned& aligned, const PoseCovariance& covariance,
+              bool found_again, Estimate& estimate) noexcept;
+  [[nodiscard]] PoseSearchPrior SearchPrior(StampNs stamp_ns) const noexcept;
   [[nodiscard]] PoseCameraFromObject Predict(const DepthFrame& frame) const noexcept;
   [[nodiscard]] bool IsSameObjectFrame(const DepthFrame& frame,
                                        const PoseObjectFromCamera& T_oc) const noexcept;
   void Coast(StampNs stamp_ns, Estimate& estimate) const noexcept;
-  struct PoseCovariance {
-    bool solved = false;
-    Mat6 white = Mat6::Zero();     ///< What changes from frame to frame.
-    Mat6 reported = Mat6::Zero();  ///< With the drift of the model since its first view.
-    /// Of the twist, along what no surface tells.
-    Mat6 twist_unobserved = Mat6::Zero();
-  };
   [[nodiscard]] PoseCovariance CovarianceOf(const Aligned& aligned,
                                             StampNs stamp_ns) const noexcept;
   [[nodiscard]] bool IsForeign(const Vec3& x_o) const noexcept;
   void RememberView(const DepthFrame& frame) noexcept;
   void ForgetContradicted(const DepthFrame& frame, const PoseObjectFromCamera& T_oc,
                           Estimate& estimate) noexcept;
-  [[nodiscard]] float ImageMotion(const DepthFrame& frame) const noexcept;
+  [[nodiscard]] float ImageSpeed(const DepthFrame& frame) const noexcept;
+  [[nodiscard]] bool TellsNothingNew(const DepthFrame& frame, Estimate& estimate) noexcept;
+  Status Bridge(const DepthFrame& frame, Estimate& estimate) noexcept;
   void FuseObservations(const DepthFrame& frame, Estimate& estimate) noexcept;
   void MoveTo(StampNs stamp_ns, const PoseObjectFromCamera& T_oc) noexcept;
   void Retrain(Estimate& estimate) noexcept;
@@ -124,6 +138,7 @@ class Tracker {
   bool started_ = false;  ///< An object frame exists.
   std::uint8_t reset_counter_ = 0;
   std::uint32_t frame_index_ = 0;  ///< Frames since the object frame was started.
+  ImageRepeats repeats_;
   bool has_stamp_ = false;
   StampNs last_stamp_ns_ = 0;
   PoseObjectFromCamera T_oc_;           ///< Latest registered or predicted pose.
@@ -144,6 +159,7 @@ class Tracker {
   SeenSpace<Limits::kMaxSeenViews, Limits::kSeenCells> seen_;
   TwistFilter twist_filter_;
   TrackingMonitor monitor_;
+  Recognition recognition_;
 };
 
 extern template class Tracker<profiles::Micro>;

@@ -6,6 +6,7 @@
 #include "disflow/field/known_surface.h"
 #include "disflow/flow/model_agreement.h"
 #include "disflow/tracker.h"
+#include "disflow/tracker_model_impl.h"
 #include "disflow/tracker_pose_impl.h"
 
 /// @file
@@ -30,6 +31,7 @@ Status Tracker<Limits>::Process(const DepthFrame& frame, Estimate& estimate,
   StageStopwatch stopwatch(clock, estimate);
   Status status = Check(frame);
   if (status != Status::kOk) return Refuse(status, frame, estimate);
+  if (TellsNothingNew(frame, estimate)) return Bridge(frame, estimate);
 
   // Where the object should be now, if it kept its velocity.
   if (started_) T_oc_ = Predict(frame).Inverse();
@@ -108,6 +110,32 @@ Status Tracker<Limits>::Check(const DepthFrame& frame) const noexcept {
   return CheckFrame(frame, Limits::kMaxImageWidth, Limits::kMaxImageHeight);
 }
 
+/// Whether the image is the last registered one once more, of an object that moved on meanwhile. An
+/// image without noise of an object at rest looks the same again and again, and holds.
+template <CapacityProfile Limits>
+bool Tracker<Limits>::TellsNothingNew(const DepthFrame& frame, Estimate& estimate) noexcept {
+  constexpr float kMoving_px_per_s = 20.0F;  // 2 pixels in the time of the longest hiccup
+  if (!repeats_.IsRepeat(frame.depth, frame.stamp_ns)) return false;
+  ++estimate.rejected.images_repeated;
+  const bool registered = started_ && twist_filter_.stamp_ns() >= repeats_.first_ns();
+  if (!registered) return false;
+  return SpanNs(repeats_.first_ns(), frame.stamp_ns) <= kLongestHiccup_ns ||
+         ImageSpeed(frame) > kMoving_px_per_s;
+}
+
+/// Predicts over a repeated image. A camera that hangs loses the object.
+template <CapacityProfile Limits>
+Status Tracker<Limits>::Bridge(const DepthFrame& frame, Estimate& estimate) noexcept {
+  last_stamp_ns_ = frame.stamp_ns;
+  T_oc_ = Predict(frame).Inverse();
+  if (SpanNs(repeats_.first_ns(), frame.stamp_ns) > kLongestHiccup_ns) {
+    (void)Conclude(frame, Status::kRepeatedImage, Aligned{}, estimate);
+  } else {
+    Coast(frame.stamp_ns, estimate);
+  }
+  return Finish(Status::kRepeatedImage, frame, estimate);
+}
+
 template <CapacityProfile Limits>
 Status Tracker<Limits>::Observe(const DepthFrame& frame, Estimate& estimate,
                                 StageStopwatch& stopwatch, bool doubtful) noexcept {
@@ -125,7 +153,7 @@ Status Tracker<Limits>::Observe(const DepthFrame& frame, Estimate& estimate,
              T_oc_,
              field_.bounds_min_m(),
              field_.bounds_max_m(),
-             ImageMotion(frame)};
+             config_.segmenter.mask_delay_s * ImageSpeed(frame)};
   }
   const auto explains = [this](const Vec3& x_c) {
     return IsNearSurface(field_, T_oc_ * x_c, config_.segmenter.explained_m);
@@ -181,6 +209,7 @@ void Tracker<Limits>::StartAt(StampNs stamp_ns, const PoseObjectFromCamera& T_oc
   twist_filter_.Start(config_.twist, stamp_ns, T_oc.Inverse(), registered_covariance_);
   observed_ns_ = stamp_ns;
   monitor_.Start(config_.monitor, stamp_ns);
+  recognition_.Forget();
   frame_index_ = 0;
   started_ = true;
 }
@@ -202,38 +231,9 @@ void Tracker<Limits>::MoveTo(StampNs stamp_ns, const PoseObjectFromCamera& T_oc)
                   stamp_ns);
 }
 
-/// Whether a point lies in space that the camera has looked through.
+/// How fast the object moves in the image, pixels per second.
 template <CapacityProfile Limits>
-bool Tracker<Limits>::IsForeign(const Vec3& x_o) const noexcept {
-  return seen_.IsFree(x_o, config_.segmenter.free_margin_m);
-}
-
-template <CapacityProfile Limits>
-void Tracker<Limits>::RememberView(const DepthFrame& frame) noexcept {
-  const bool everything = !frame.mask.given() && config_.segmenter.grow_region == 0;
-  if (everything || config_.segmenter.free_margin_m == 0.0F) return;
-  constexpr float kFarthest_m = 60.0F;
-  seen_.Add(DepthReader(frame.depth, config_.segmenter.min_range_m, kFarthest_m), frame.camera,
-            T_oc_, object_mask_.box());
-}
-
-/// Surface that was learnt though it was not the object's, such as a piece of the table under a
-/// loose mask, stays behind when the object moves: then it is looked through.
-template <CapacityProfile Limits>
-void Tracker<Limits>::ForgetContradicted(const DepthFrame& frame, const PoseObjectFromCamera& T_oc,
-                                         Estimate& estimate) noexcept {
-  FixedVector<Handle, kMostForgotten> forgotten;
-  (void)CompareWithImage(field_, T_oc, frame.camera, UsableDepth(frame),
-                         [&](Handle handle, bool seen) {
-                           if (field_.Witness(handle, seen)) (void)forgotten.push_back(handle);
-                         });
-  for (const Handle handle : forgotten) field_.Forget(handle, estimate.rejected);
-}
-
-/// How far the predicted object may have moved in the image since a mask was made that is
-/// segmenter.mask_delay_s old.
-template <CapacityProfile Limits>
-float Tracker<Limits>::ImageMotion(const DepthFrame& frame) const noexcept {
+float Tracker<Limits>::ImageSpeed(const DepthFrame& frame) const noexcept {
   constexpr float kNearest_m = 0.1F;
   const PoseCameraFromObject T_co = T_oc_.Inverse();
   const Vec3 center_c = T_co * Vec3(0.5F * (field_.bounds_min_m() + field_.bounds_max_m()));
@@ -244,45 +244,7 @@ float Tracker<Limits>::ImageMotion(const DepthFrame& frame) const noexcept {
   const float lever_m = 0.25F * (field_.bounds_max_m() - field_.bounds_min_m()).norm();
   const float speed_mps = velocity_mps.norm() + twist.angular_rps.norm() * lever_m;
   const float pixel_per_m = frame.camera.fx_px / std::max(center_c.z(), kNearest_m);
-  return config_.segmenter.mask_delay_s * speed_mps * pixel_per_m;
-}
-
-template <CapacityProfile Limits>
-void Tracker<Limits>::FuseObservations(const DepthFrame& frame, Estimate& estimate) noexcept {
-  const bool first = frame_index_ == 0;
-  const int wanted = first ? samples_.size() : std::min(samples_.size(), config_.field.fuse_budget);
-  // The subset moves from frame to frame, so that every part of the image gets its turn.
-  const int offset = static_cast<int>(frame_index_ % 7U);
-  const Mat3& R_oc = T_oc_.rotation();
-  const DepthReader depth = UsableDepth(frame);
-  for (int i = 0; i < wanted; ++i) {
-    const auto index = (static_cast<std::int64_t>(i) * samples_.size() + offset) / wanted;
-    SurfaceSample observation = samples_[std::min(static_cast<int>(index), samples_.size() - 1)];
-    const Vec2 px = frame.camera.Project(observation.position_m);
-    const bool undecided =
-        overrun_.IsReachedFrom(static_cast<int>(std::lround(px.x())),
-                               static_cast<int>(std::lround(px.y())), depth, frame.camera);
-    observation.position_m = T_oc_ * observation.position_m;
-    observation.normal = R_oc * observation.normal;
-    if (IsForeign(observation.position_m)) {
-      ++estimate.rejected.observations_rejected;
-      continue;
-    }
-    // The outcome is in the counters.
-    (void)field_.Insert(observation, frame_index_, estimate.rejected, !undecided);
-  }
-  for (const EdgePoint& point : edges_) {
-    const EdgePoint moved = T_oc_ * point;
-    if (IsForeign(moved.position_m)) continue;
-    model_edges_.Insert(moved, config_.field.merge_radius_m, estimate.rejected);
-  }
-}
-
-template <CapacityProfile Limits>
-void Tracker<Limits>::Retrain(Estimate& estimate) noexcept {
-  const int factor = frame_index_ < kInitialFrames ? kInitialBudgetFactor : 1;
-  (void)field_.Retrain(factor * config_.field.retrain_budget, estimate.rejected);
-  ++frame_index_;
+  return speed_mps * pixel_per_m;
 }
 
 /// Of a frame that cannot be used: what is known without it. No state but the counters changes.
@@ -321,7 +283,7 @@ Status Tracker<Limits>::Finish(Status status, const DepthFrame& frame,
       estimate.has_T_wo = true;
       estimate.T_wo = frame.T_wc * estimate.T_co;
     }
-    if (monitor_.ShouldRestart(last_stamp_ns_)) Reset();
+    if (monitor_.ShouldRestart()) Reset();
   }
   estimate.reset_counter = reset_counter_;
   totals_.Accumulate(estimate.rejected);

@@ -21,8 +21,7 @@ typename Tracker<Limits>::Aligned Tracker<Limits>::Register(const DepthFrame& fr
   // Starting poses are compared on a part of the samples: they are many and need not be precise.
   const EveryNth some(samples_, PoseSearch<Limits>::kPoints);
   registration_.SetObservations(some, edges_);
-  const PoseSearchPrior prior{T_oc_, T_oc_previous_, frame_index_ >= kFramesUntilVelocity,
-                              monitor_.Doubts(frame.stamp_ns) ? monitor_.missed() + 1 : 0};
+  const PoseSearchPrior prior = SearchPrior(frame.stamp_ns);
   const auto conflict = [&](const PoseObjectFromCamera& T_oc) {
     return AgreementWith(frame, T_oc).conflict();
   };
@@ -45,6 +44,20 @@ typename Tracker<Limits>::Aligned Tracker<Limits>::Register(const DepthFrame& fr
   return aligned;
 }
 
+/// Where to look for the object: near the prediction, after a few frames in vain turned anyhow, and
+/// where it was recognised.
+template <CapacityProfile Limits>
+PoseSearchPrior Tracker<Limits>::SearchPrior(StampNs stamp_ns) const noexcept {
+  PoseSearchPrior prior{T_oc_, T_oc_previous_, frame_index_ >= kFramesUntilVelocity,
+                        monitor_.Doubts(stamp_ns) ? monitor_.missed() + 1 : 0};
+  if (recognition_.pending()) {
+    prior.T_predicted = prior.T_previous = recognition_.T_oc();
+  } else if (monitor_.searched() >= kLocalSearches) {
+    prior.global = (monitor_.searched() - kLocalSearches) % PoseSearch<Limits>::kGlobalFrames;
+  }
+  return prior;
+}
+
 /// Believes the registered pose or not, and moves the twist filter and the monitor on.
 template <CapacityProfile Limits>
 Status Tracker<Limits>::Conclude(const DepthFrame& frame, Status observed, const Aligned& aligned,
@@ -56,42 +69,60 @@ Status Tracker<Limits>::Conclude(const DepthFrame& frame, Status observed, const
     const ModelAgreement agreement = AgreementWith(frame, aligned.T_oc);
     estimate.conflict = agreement.conflict();
     estimate.visible = agreement.visible();
-    evidence = {covariance.solved,
-                estimate.score,
-                agreement.conflict(),
-                aligned.inliers,
-                registration_.size(),
-                std::sqrt(covariance.reported.diagonal().template head<3>().maxCoeff()),
-                std::sqrt(covariance.reported.diagonal().template tail<3>().maxCoeff())};
+    evidence = {
+        .registered = covariance.solved,
+        .score = estimate.score,
+        .conflict = agreement.conflict(),
+        .visible = agreement.visible(),
+        .inliers = aligned.inliers,
+        .points = registration_.size(),
+        .position_std_m = std::sqrt(covariance.reported.diagonal().template head<3>().maxCoeff()),
+        .rotation_std_rad =
+            std::sqrt(covariance.reported.diagonal().template tail<3>().maxCoeff())};
   }
+  evidence.in_view = observed == Status::kOk;
   const bool near = !monitor_.Doubts(frame.stamp_ns) || IsSameObjectFrame(frame, aligned.T_oc);
-  const bool accepted =
-      observed == Status::kOk && near && monitor_.Accepts(evidence, frame.stamp_ns);
+  const bool followed = evidence.in_view && near && monitor_.Accepts(evidence, frame.stamp_ns);
   // Foreign surface in the model contradicts the true pose: unless it is forgotten at poses that
   // are refused for that alone, too, it keeps the object lost.
   const bool explained =
-      observed == Status::kOk && near && evidence.registered && monitor_.Explains(evidence);
-  if (accepted || explained) ForgetContradicted(frame, aligned.T_oc, estimate);
-  evidence.registered = accepted;
+      evidence.in_view && near && evidence.registered && monitor_.Explains(evidence);
+  if (followed || explained) ForgetContradicted(frame, aligned.T_oc, estimate);
+  const bool recognised = evidence.in_view && !near && monitor_.Recognises(evidence);
+  const bool found_again = recognition_.Confirm(recognised, aligned.T_oc, registration_.center_c());
+  evidence.registered = followed || found_again;
   monitor_.Update(evidence, frame.stamp_ns);
-  if (accepted) {
-    T_oc_ = aligned.T_oc;
-    T_oc_previous_ = T_oc_;
-    if (covariance.twist_unobserved.isZero(0.0F)) observed_ns_ = frame.stamp_ns;
-    // The twist filter sees differences between frames, in which the drift of the model cancels.
-    twist_filter_.Predict(frame.stamp_ns);
-    twist_filter_.Update(T_oc_.Inverse(), covariance.white);
-    estimate.weak = FindWeakDirection(covariance.reported, config_.monitor);
-    field_.SetGeneration(aligned.generation + 1.0F);
-    registered_covariance_ = covariance.reported;
-    twist_unobserved_ = covariance.twist_unobserved;
-    estimate.pose_covariance = covariance.reported;
-    estimate.twist_covariance = twist_filter_.twist_covariance() + twist_unobserved_;
+  if (evidence.registered) {
+    Follow(frame.stamp_ns, aligned, covariance, found_again, estimate);
   } else {
     Coast(frame.stamp_ns, estimate);
   }
   if (observed != Status::kOk) return observed;
-  return accepted ? Status::kOk : Status::kRegistrationFailed;
+  return evidence.registered ? Status::kOk : Status::kRegistrationFailed;
+}
+
+/// Takes the registered pose over.
+/// @param found_again Where the object was before says nothing of its velocity.
+template <CapacityProfile Limits>
+void Tracker<Limits>::Follow(StampNs stamp_ns, const Aligned& aligned,
+                             const PoseCovariance& covariance, bool found_again,
+                             Estimate& estimate) noexcept {
+  T_oc_ = aligned.T_oc;
+  T_oc_previous_ = T_oc_;
+  if (covariance.twist_unobserved.isZero(0.0F)) observed_ns_ = stamp_ns;
+  // The twist filter sees differences between frames, in which the drift of the model cancels.
+  if (found_again) {
+    twist_filter_.Start(config_.twist, stamp_ns, T_oc_.Inverse(), covariance.white);
+  } else {
+    twist_filter_.Predict(stamp_ns);
+    twist_filter_.Update(T_oc_.Inverse(), covariance.white);
+  }
+  estimate.weak = FindWeakDirection(covariance.reported, config_.monitor);
+  field_.SetGeneration(aligned.generation + 1.0F);
+  registered_covariance_ = covariance.reported;
+  twist_unobserved_ = covariance.twist_unobserved;
+  estimate.pose_covariance = covariance.reported;
+  estimate.twist_covariance = twist_filter_.twist_covariance() + twist_unobserved_;
 }
 
 /// The pose at a constant velocity; at one that fades while the object is not seen, since what
@@ -116,17 +147,18 @@ PoseCameraFromObject Tracker<Limits>::Predict(const DepthFrame& frame) const noe
   return {T_co.rotation(), T_oc_.Inverse().translation()};
 }
 
-/// Whether a pose that was searched for is that of the same object frame. Many things look alike
-/// from opposite sides: neither may the pose be turned far from the predicted one, nor may the
-/// object have had the time to turn over since it was last seen.
+/// Whether a pose that was searched for is that of the same object frame by what is known of its
+/// motion. Many things look alike from opposite sides: neither may the pose be turned far from the
+/// predicted one, nor may the object have had the time to turn over since it was last seen.
 template <CapacityProfile Limits>
 bool Tracker<Limits>::IsSameObjectFrame(const DepthFrame& frame,
                                         const PoseObjectFromCamera& T_oc) const noexcept {
   constexpr float kReach_rad = 0.7F;
   constexpr float kFarthestTurn_rad = 1.6F;
+  constexpr float kLongest_s = 0.6F;  // what is moved by hand has come to anything by then
   const float gap_s = Seconds(SpanNs(twist_filter_.stamp_ns(), frame.stamp_ns));
   const Vec3 off = LogSo3(Mat3(T_oc.rotation() * T_oc_.rotation().transpose()));
-  return off.norm() <= kReach_rad &&
+  return gap_s <= kLongest_s && off.norm() <= kReach_rad &&
          gap_s * twist_filter_.twist().angular_rps.norm() <= kFarthestTurn_rad;
 }
 

@@ -28,14 +28,15 @@ struct Stretch {
   double most_distance_m;  ///< In any frame.
   double most_angle_deg;
   int most_jumps;
+  int repeated;  ///< Images that are the one before once more.
 };
 
 constexpr Stretch kStretches[] = {
     // The settings were chosen on this one. Its reference jumps by 36 mm from frame 121 to 122,
     // which the images contradict (docs/results.md).
-    {"First", "kinect_room", 0, 0.02, 1.0, 0.08, 3.0, 1},
+    {"First", "kinect_room", 0, 0.02, 1.0, 0.08, 3.0, 1, 0},
     // Not to be proud of: on a stretch that nobody tuned on, the map drifts.
-    {"Second", "kinect_room_2", 150, 0.2, 3.5, 0.2, 3.5, 149},
+    {"Second", "kinect_room_2", 150, 0.2, 3.5, 0.2, 3.5, 149, 17},
 };
 
 void PrintTo(const Stretch& stretch, std::ostream* stream) { *stream << stretch.name; }
@@ -92,8 +93,14 @@ TEST_P(RoomTracking, CameraMotionThroughAStaticRoom_MatchesTheGivenPosesAndTheRo
   const Pose T_c0_o = EstimatedPoseOf(rows.front());
   Pose T_w_o_previous = T_w_c0 * T_c0_o;
   int jumps = 0;
+  int repeated = 0;
   for (int frame = 0; frame < kFrames; ++frame) {
     const apps::EstimateRow& row = rows[static_cast<std::size_t>(frame)];
+    // The reference was made from the images, and stands still while they repeat.
+    if (row.status == "repeated_image") {
+      ++repeated;
+      continue;
+    }
     EXPECT_EQ(row.status, "ok") << "frame " << frame;
     // The object stands still, so that its motion seen from the camera is the camera's.
     const Pose given = T_w_c0.inverse() * GivenPose(room, stretch.first_frame + frame);
@@ -111,6 +118,8 @@ TEST_P(RoomTracking, CameraMotionThroughAStaticRoom_MatchesTheGivenPosesAndTheRo
     if (step.distance_m > 0.01 || step.angle_deg > 0.6) ++jumps;
     T_w_o_previous = T_w_o;
   }
+  std::printf("%s: %d jumps\n", stretch.folder, jumps);
+  EXPECT_EQ(repeated, stretch.repeated);
   EXPECT_LE(jumps, stretch.most_jumps) << "the object does not stand still in the world";
 }
 

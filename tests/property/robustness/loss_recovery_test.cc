@@ -94,17 +94,38 @@ TEST_P(Loss, ObjectThatLeavesTheView_IsFoundAgainWhenItComesBack) {
   ExpectSameObjectFrame();
 }
 
-TEST_P(Loss, ObjectThatStaysAway_IsStartedAnew) {
-  constexpr int kAway = 20 + 55;  // longer than monitor.reinitialise_after_s
-  constexpr int kEnd = kAway + 15;
-  const TrackedSequence& sequence = Track(Scene(GetParam(), kEnd), kEnd, [](int i) {
-    return i >= 20 && i < kAway ? Fate::kBlank : Fate::kSeen;
-  });
-  EXPECT_EQ(sequence.At(20 + 30).estimate.reset_counter, 0);
-  EXPECT_EQ(sequence.At(kAway).estimate.state, TrackingState::kInitialising);
-  EXPECT_EQ(sequence.last().estimate.reset_counter, 1);
-  EXPECT_EQ(sequence.last().estimate.state, TrackingState::kTracking);
-  EXPECT_LT(sequence.last().off_m, 0.003);  // of where it was at the new start
+TEST_P(Loss, ObjectThatWasHiddenForSecondsAndMoved_IsRecognisedWithinHalfASecond) {
+  constexpr int kHidden = 120;
+  constexpr int kHalfASecond = 15;
+  for (const int seen_again : {kHidden + 45, kHidden + 100}) {
+    SCOPED_TRACE(seen_again);
+    host::SimulationOptions options = Scene(GetParam(), seen_again + 25);
+    options.seed = 3;
+    const TrackedSequence& sequence = Track(options, seen_again + 25, [=](int i) {
+      return i >= kHidden && i < seen_again ? Fate::kBlank : Fate::kSeen;
+    });
+    // It is elsewhere.
+    const auto before = sequence.Truth(kHidden - 1).object.pose;
+    const auto after = sequence.Truth(seen_again).object.pose;
+    EXPECT_GT((before.translation() - after.translation()).norm(), 0.03);
+    EXPECT_EQ(sequence.At(seen_again - 1).estimate.state, TrackingState::kLost);
+    EXPECT_EQ(sequence.At(seen_again + kHalfASecond).estimate.status, Status::kOk);
+    ExpectSameObjectFrame();
+  }
+}
+
+TEST_P(Loss, AnotherObjectInItsPlace_IsNotTakenForIt) {
+  constexpr int kChange = 60;
+  const bool is_box = GetParam() == ObjectKind::kBox;
+  host::SimulationOptions other =
+      Scene(is_box ? ObjectKind::kBottle : ObjectKind::kBox, kChange + 150);
+  host::Simulation replaced(other, host::MakeObjectMesh(other.object));
+  TrackedSequence& sequence = Track(Scene(GetParam(), kChange), kChange);
+  for (int i = kChange + 60; i < kChange + 100; ++i) {
+    DepthFrame frame;
+    replaced.Render(i, frame);
+    EXPECT_NE(sequence.Offer(frame).status, Status::kOk) << i;
+  }
 }
 
 TEST_P(Loss, ObjectThatTurnedTooFar_IsNotTakenForTheSameFrame) {

@@ -49,6 +49,13 @@ class TrackedSequence {
     }
   }
 
+  /// A frame of something else.
+  Estimate Offer(const DepthFrame& frame) {
+    Estimate estimate;
+    (void)tracker_->Process(frame, estimate);
+    return estimate;
+  }
+
   [[nodiscard]] const std::vector<TrackedFrame>& frames() const { return frames_; }
   [[nodiscard]] const TrackedFrame& At(int index) const {
     return *std::find_if(frames_.begin(), frames_.end(),

@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "disflow/depth/pixel_mask.h"
 #include "disflow/limits.h"
 
 namespace disflow::testing {

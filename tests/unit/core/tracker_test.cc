@@ -323,6 +323,82 @@ TEST(Tracker, InvalidConfig_RefusesEveryFrame) {
   EXPECT_TRUE(tracker->field().empty());
 }
 
+/// The image of one frame under the stamp of another.
+DepthFrame Repeated(Tracking& tracking, int image, int frame) {
+  DepthFrame repeated = tracking.box().At(Tracking::StampOf(image));
+  repeated.stamp_ns = Tracking::StampOf(frame);
+  return repeated;
+}
+
+TEST(Tracker, RepeatedImages_ArePredictedAndDoNotDisturbTheVelocity) {
+  Tracking tracking;
+  const Estimate first = tracking.Process(kStart_ns);
+  for (int i = 1; i < 15; ++i) (void)tracking.Process(Tracking::StampOf(i));
+  for (int i = 15; i < 39; i += 3) {
+    SCOPED_TRACE(i);
+    const Estimate seen = tracking.Process(Tracking::StampOf(i));
+    EXPECT_EQ(seen.status, Status::kOk);
+    EXPECT_EQ(seen.rejected.images_repeated, 0U);
+    Estimate before = seen;
+    for (const int repeat : {i + 1, i + 2}) {
+      const Estimate predicted = tracking.Give(Repeated(tracking, i, repeat));
+      EXPECT_EQ(predicted.status, Status::kRepeatedImage);
+      EXPECT_EQ(KindOf(predicted), EstimateKind::kPredicted);
+      EXPECT_EQ(predicted.rejected.images_repeated, 1U);
+      EXPECT_EQ(predicted.state, seen.state);
+      EXPECT_EQ(predicted.quality, seen.quality);
+      EXPECT_LT(OffBy(first, predicted, predicted.stamp_ns), 0.004F);
+      EXPECT_EQ(predicted.twist.linear_mps, seen.twist.linear_mps);
+      EXPECT_GT((predicted.pose_covariance - before.pose_covariance).diagonal().minCoeff(), 0.0F);
+      before = predicted;
+    }
+  }
+  EXPECT_EQ(tracking.tracker().totals().images_repeated, 16U);
+}
+
+TEST(Tracker, CameraThatHangs_LosesTheMovingObject) {
+  Tracking tracking;
+  (void)tracking.Run(15);
+  Estimate estimate;
+  for (int i = 15; i < 35; ++i) {
+    estimate = tracking.Give(Repeated(tracking, 14, i));
+    EXPECT_EQ(estimate.status, Status::kRepeatedImage) << i;
+  }
+  EXPECT_EQ(estimate.state, TrackingState::kLost);
+}
+
+TEST(Tracker, SameImageOfAnObjectAtRest_HoldsAfterAMoment) {
+  Tracking tracking;
+  Estimate estimate;
+  int measured = 0;
+  for (int i = 0; i < 40; ++i) {
+    estimate = tracking.Give(Repeated(tracking, 0, i));
+    if (estimate.status == Status::kOk) ++measured;
+    EXPECT_NE(estimate.state, TrackingState::kDegraded) << i;
+    EXPECT_NE(estimate.state, TrackingState::kLost) << i;
+  }
+  EXPECT_EQ(estimate.state, TrackingState::kTracking);
+  EXPECT_GE(measured, 36);
+  EXPECT_EQ(tracking.tracker().totals().images_repeated, 39U);
+}
+
+TEST(Tracker, ImageThatDiffersInOneBitOfTheRowsLookedAt_IsNoRepeat) {
+  Tracking tracking;
+  (void)tracking.Run(10);
+  DepthFrame frame = tracking.box().At(Tracking::StampOf(9));
+  const auto row_bytes = static_cast<std::size_t>(frame.depth.stride_bytes);
+  std::vector<std::byte> pixels(row_bytes * static_cast<std::size_t>(frame.depth.height_px));
+  std::memcpy(pixels.data(), frame.depth.data, pixels.size());
+  frame.depth.data = pixels.data();
+  for (const std::size_t byte : {std::size_t{0}, row_bytes - 4, 4 * row_bytes + 8}) {
+    pixels[byte] ^= std::byte{1};
+    frame.stamp_ns += kFrame_ns;
+    EXPECT_EQ(tracking.Give(frame).rejected.images_repeated, 0U);
+  }
+  frame.stamp_ns += kFrame_ns;
+  EXPECT_EQ(tracking.Give(frame).rejected.images_repeated, 1U);
+}
+
 TEST(Tracker, FirstAndLastOfAllStamps_AreTaken) {
   Tracking tracking;
   constexpr StampNs kMin = std::numeric_limits<StampNs>::min();

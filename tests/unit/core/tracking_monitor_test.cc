@@ -11,7 +11,23 @@ namespace {
 using Evidence = TrackingMonitor::Evidence;
 constexpr StampNs kFrame_ns = 33'333'333;
 
-Evidence Good() { return {true, 0.98F, 0.0F, 450, 500, 0.0005F, 0.005F}; }
+Evidence Good() {
+  return {.registered = true,
+          .in_view = true,
+          .score = 0.98F,
+          .conflict = 0.0F,
+          .visible = 0.9F,
+          .inliers = 450,
+          .points = 500,
+          .position_std_m = 0.0005F,
+          .rotation_std_rad = 0.005F};
+}
+/// Something is there, and the model does not fit it.
+Evidence InVain() {
+  Evidence evidence;
+  evidence.in_view = true;
+  return evidence;
+}
 Evidence With(void (*spoil)(Evidence&)) {
   Evidence evidence = Good();
   spoil(evidence);
@@ -156,15 +172,15 @@ TEST_F(TrackingMonitorTest, FoundAgain_IsRecoveredForAWhile) {
 
 TEST_F(TrackingMonitorTest, SearchedPose_NeedsWhatWasUsualBeforeTheLoss) {
   // A noisy sensor: half of the points are inliers at best, and a tenth of the model conflicts.
-  const Evidence usual{true, 0.85F, 0.10F, 200, 500, 0.002F, 0.02F};
-  const auto found = [&](float share) {
-    return Evidence{true,
-                    share * usual.score,
-                    usual.conflict,
-                    static_cast<int>(share * static_cast<float>(usual.inliers)),
-                    500,
-                    0.002F,
-                    0.02F};
+  Evidence usual = Good();
+  usual.score = 0.85F;
+  usual.conflict = 0.10F;
+  usual.inliers = 200;
+  const auto found = [&usual](float share) {
+    Evidence evidence = usual;
+    evidence.score *= share;
+    evidence.inliers = static_cast<int>(share * static_cast<float>(usual.inliers));
+    return evidence;
   };
   Track();
   Offer(Evidence{}, config_.lost_after_frames);
@@ -178,15 +194,41 @@ TEST_F(TrackingMonitorTest, SearchedPose_NeedsWhatWasUsualBeforeTheLoss) {
   EXPECT_FALSE(Accepts(found(0.5F)));
 }
 
-TEST_F(TrackingMonitorTest, LostForLong_ShouldRestart) {
+TEST_F(TrackingMonitorTest, LookedForInVainForLong_ShouldRestart) {
   Track();
-  Offer(Evidence{}, 40);
-  EXPECT_FALSE(monitor_.ShouldRestart(stamp_ns_));
-  Offer(Evidence{}, 10);
-  EXPECT_TRUE(monitor_.ShouldRestart(stamp_ns_));
+  Offer(InVain(), 40);
+  EXPECT_FALSE(monitor_.ShouldRestart());
+  Offer(InVain(), 10);
+  EXPECT_TRUE(monitor_.ShouldRestart());
   monitor_.Start(config_, stamp_ns_);
-  EXPECT_FALSE(monitor_.ShouldRestart(stamp_ns_));
+  EXPECT_FALSE(monitor_.ShouldRestart());
   EXPECT_EQ(monitor_.state(), TrackingState::kInitialising);
+}
+
+TEST_F(TrackingMonitorTest, NothingInView_TheModelIsKept) {
+  Track();
+  Offer(Evidence{}, 1000);
+  EXPECT_EQ(monitor_.state(), TrackingState::kLost);
+  EXPECT_EQ(monitor_.searched(), 0);
+  EXPECT_FALSE(monitor_.ShouldRestart());
+  // Nor does the time before count when something comes into view.
+  stamp_ns_ += 100 * kFrame_ns;
+  Offer(InVain(), 40);
+  EXPECT_EQ(monitor_.searched(), 40);
+  EXPECT_FALSE(monitor_.ShouldRestart());
+}
+
+TEST_F(TrackingMonitorTest, PoseThatMayBeAny_IsRecognisedOnlyBeyondDoubt) {
+  Track();
+  Offer(InVain(), config_.lost_after_frames);
+  EXPECT_TRUE(monitor_.Recognises(Good()));
+  EXPECT_FALSE(monitor_.Recognises(With([](Evidence& e) { e.registered = false; })));
+  EXPECT_FALSE(monitor_.Recognises(With([](Evidence& e) { e.score = 0.92F; })));
+  EXPECT_FALSE(monitor_.Recognises(With([](Evidence& e) { e.conflict = 0.04F; })));
+  EXPECT_FALSE(monitor_.Recognises(With([](Evidence& e) { e.visible = 0.3F; })));
+  EXPECT_FALSE(monitor_.Recognises(With([](Evidence& e) { e.inliers = 200; })));
+  EXPECT_FALSE(monitor_.Recognises(With([](Evidence& e) { e.rotation_std_rad = 0.5F; })))
+      << "a mug whose handle is hidden";
 }
 
 TEST_F(TrackingMonitorTest, StampsAtBothEndsOfTime_AreFarApart) {
@@ -196,9 +238,10 @@ TEST_F(TrackingMonitorTest, StampsAtBothEndsOfTime_AreFarApart) {
   EXPECT_FALSE(monitor_.Doubts(kFirst_ns + kFrame_ns));
   for (const StampNs stamp_ns : {StampNs{-1}, StampNs{0}, StampNs{1}, kLast_ns})
     EXPECT_TRUE(monitor_.Doubts(stamp_ns)) << stamp_ns;
-  for (int i = 0; i < config_.lost_after_frames; ++i) monitor_.Update({}, kFirst_ns);
-  EXPECT_FALSE(monitor_.ShouldRestart(kFirst_ns));
-  EXPECT_TRUE(monitor_.ShouldRestart(kLast_ns));
+  for (int i = 0; i < config_.lost_after_frames; ++i) monitor_.Update(InVain(), kFirst_ns);
+  EXPECT_FALSE(monitor_.ShouldRestart());
+  monitor_.Update(InVain(), kLast_ns);
+  EXPECT_TRUE(monitor_.ShouldRestart());
 }
 
 TEST(SpanNs, IsTheDifferenceWhereItFitsAndTheFarthestElsewhere) {

@@ -7,8 +7,8 @@
 #include "disflow/depth/segmenter.h"
 
 /// @file
-/// The part of Segmenter that works with the predicted model's bounds; apart, so that tracker.h
-/// stays light.
+/// Definitions of Segmenter's members that cut the image into surfaces and draw those chosen;
+/// apart, so that tracker.h stays light.
 
 namespace disflow {
 
@@ -54,6 +54,72 @@ void Segmenter<Limits>::BuildSurfaces(const DepthFrame& frame, const SegmenterCo
     }
   }
   counters.runs_dropped += static_cast<std::uint32_t>(surfaces_.dropped());
+}
+
+template <class Limits>
+bool Segmenter<Limits>::IsExact(Mask& mask) noexcept {
+  int covered = 0;
+  int outside = 0;
+  PixelBox bounds{box_.u_max, box_.v_max, box_.u_min, box_.v_min};
+  surfaces_.ForEachRun([&](int c, const PixelRun& run) {
+    if (c == Surfaces::kNoComponent || !vote(c).chosen) return;
+    const int inside = mask.row(run.v).CountRun(run.u_begin, run.u_end);
+    covered += inside;
+    outside += run.length() - inside;
+    if (inside == 0) return;
+    bounds.u_min = std::min(bounds.u_min, static_cast<int>(run.u_begin));
+    bounds.u_max = std::max(bounds.u_max, static_cast<int>(run.u_end));
+    bounds.v_min = std::min(bounds.v_min, static_cast<int>(run.v));
+    bounds.v_max = std::max(bounds.v_max, static_cast<int>(run.v) + 1);
+  });
+  if (covered == 0) return false;
+  const auto outline = 2.0F * static_cast<float>(bounds.width() + bounds.height());
+  const auto lost = static_cast<float>(mask.count() - covered);
+  return static_cast<float>(outside) < kOutsidePx * outline &&
+         lost < kLostPx * outline + kLostShare * static_cast<float>(mask.count());
+}
+
+template <class Limits>
+template <class Explains>
+void Segmenter<Limits>::Redraw(const DepthFrame& frame, const ModelPrior& prior, Explains& explains,
+                               Mask& object) noexcept {
+  const bool masked = frame.mask.given();
+  const DepthReader depth(frame.depth, 0.0F, 1e6F);
+  int v_done = 0;
+  typename Mask::Row drawn;
+  drawn.Clear();
+  const auto flush = [&](int v) {
+    for (; v_done < v; ++v_done) {
+      object.row(v_done) = drawn;
+      drawn.Clear();
+    }
+  };
+  surfaces_.ForEachRun([&](int c, const PixelRun& run) {
+    if (c == Surfaces::kNoComponent || !vote(c).chosen) return;
+    flush(run.v);
+    const auto& mask = object.row(run.v);
+    const int inside = masked ? mask.CountRun(run.u_begin, run.u_end) : run.length();
+    if (inside == run.length()) {
+      drawn.SetRun(run.u_begin, run.u_end);
+      return;
+    }
+    for (int u = run.u_begin; u < run.u_end; u += kProbeStepPx) {
+      const int u_end = std::min(u + kProbeStepPx, static_cast<int>(run.u_end));
+      SurfaceVote piece;
+      if (mask.CountRun(u, u_end) < u_end - u && prior.known) {
+        const PixelRun part{run.v, static_cast<std::int16_t>(u), static_cast<std::int16_t>(u_end),
+                            0, 0};
+        Probe(depth, frame.camera, explains, part, piece);
+      }
+      for (int i = u; i < u_end; ++i) {
+        const bool known = piece.explained > 0 && (!masked || band_.Allows(i, run.v));
+        if (known || mask.Test(i)) drawn.SetRun(i, i + 1);
+      }
+    }
+  });
+  flush(object.height_px());
+  object.Finish();
+  object.template Close<kClosingPx>();
 }
 
 }  // namespace disflow

@@ -6,14 +6,10 @@
 #include <cmath>
 #include <cstdint>
 
-#include "disflow/memory/fixed_vector.h"
+#include "disflow/field/facet_pool.h"
 #include "disflow/types.h"
 
 namespace disflow {
-
-/// Index of a pool element; pools hold fewer than kNoHandle elements.
-using Handle = std::uint16_t;
-inline constexpr Handle kNoHandle = 0xFFFF;
 
 /// Integer coordinates of a leaf cell.
 struct OctreeCell {
@@ -34,20 +30,12 @@ class Octree {
  public:
   static constexpr int kDepth = 6;  ///< Levels below the root: 64 cells along each edge.
   static constexpr int kCellsPerEdge = 1 << kDepth;
-  static constexpr int kFacetsPerNode = 3;
   static constexpr int kCoarseLevels = 2;
   /// Nodes with facets. Surface fills about four of a node's eight children, so that four of five
   /// nodes are leaves.
   static constexpr int kMaxCoarseNodes = (kMaxNodes + 3) / 4;
 
   using Cell = OctreeCell;
-
-  /// Mean surface of one side (similar normals) within a coarse node.
-  struct Facet {
-    Vec3 position_sum_m;
-    Vec3 normal_sum;
-    float count;
-  };
 
   void Start(float cell_size_m) noexcept {
     cell_size_m_ = cell_size_m;
@@ -59,9 +47,7 @@ class Octree {
     free_head_ = 0;
     used_ = 0;
     root_ = Take(kNoHandle, 0);
-    free_facets_.clear();
-    for (int i = kMaxCoarseNodes - 1; i >= 0; --i)
-      (void)free_facets_.push_back(static_cast<Handle>(i));
+    facets_.Start();
   }
 
   [[nodiscard]] float cell_size_m() const noexcept { return cell_size_m_; }
@@ -128,7 +114,7 @@ class Octree {
       const Handle parent = at(node).parent;
       at(parent).child[at(node).octant] = kNoHandle;
       at(parent).children &= static_cast<std::uint8_t>(~(1U << at(node).octant));
-      if (at(node).facets != kNoHandle) (void)free_facets_.push_back(at(node).facets);
+      if (at(node).facets != kNoHandle) facets_.Give(at(node).facets);
       at(node).parent = free_head_;
       free_head_ = node;
       --used_;
@@ -168,12 +154,9 @@ class Octree {
     for (int up = 1; up <= kCoarseLevels; ++up) {
       const Handle node = FindAtLevel(cell, kDepth - up);
       if (node == kNoHandle) continue;
-      Facet* facet = SelectFacet(node, normal, crease_cos, weight > 0.0F);
-      if (facet == nullptr) continue;
-      facet->position_sum_m += weight * position_m;
-      facet->normal_sum += weight * normal;
-      facet->count += weight;
-      if (facet->count < 0.5F) *facet = EmptyFacet();
+      Handle& sides = at(node).facets;
+      if (sides == kNoHandle && weight > 0.0F) sides = facets_.Take();
+      if (sides != kNoHandle) facets_.Update(sides, position_m, normal, weight, crease_cos);
     }
   }
 
@@ -182,17 +165,7 @@ class Octree {
                                        float min_cos) const noexcept {
     const Handle node = FindAtLevel(cell, kDepth - up);
     if (node == kNoHandle || at(node).facets == kNoHandle) return nullptr;
-    const Facet* best = nullptr;
-    float best_cos = min_cos;
-    for (const Facet& facet : facets_[at(node).facets]) {
-      if (facet.count <= 0.0F) continue;
-      const float cosine = facet.normal_sum.dot(normal) / facet.normal_sum.norm();
-      if (cosine > best_cos) {
-        best_cos = cosine;
-        best = &facet;
-      }
-    }
-    return best;
+    return facets_.Find(at(node).facets, normal, min_cos);
   }
 
  private:
@@ -205,7 +178,6 @@ class Octree {
     std::uint8_t octant;    ///< Place among the parent's children.
   };
 
-  [[nodiscard]] static Facet EmptyFacet() noexcept { return {Vec3::Zero(), Vec3::Zero(), 0.0F}; }
   [[nodiscard]] Node& at(Handle node) noexcept { return nodes_[node]; }
   [[nodiscard]] const Node& at(Handle node) const noexcept { return nodes_[node]; }
 
@@ -240,34 +212,6 @@ class Octree {
     at(node).children = 0;
     at(node).octant = octant;
     return node;
-  }
-
-  [[nodiscard]] bool TakeFacets(Handle node) noexcept {
-    if (free_facets_.empty()) return false;
-    at(node).facets = free_facets_.back();
-    free_facets_.truncate(free_facets_.size() - 1);
-    facets_[at(node).facets].fill(EmptyFacet());
-    return true;
-  }
-
-  [[nodiscard]] Facet* SelectFacet(Handle node, const Vec3& normal, float crease_cos,
-                                   bool may_create) noexcept {
-    if (at(node).facets == kNoHandle && !(may_create && TakeFacets(node))) return nullptr;
-    Facet* unused = nullptr;
-    Facet* best = nullptr;
-    float best_cos = crease_cos;
-    for (Facet& facet : facets_[at(node).facets]) {
-      if (facet.count <= 0.0F) {
-        if (unused == nullptr) unused = &facet;
-        continue;
-      }
-      const float cosine = facet.normal_sum.dot(normal) / facet.normal_sum.norm();
-      if (cosine > best_cos) {
-        best_cos = cosine;
-        best = &facet;
-      }
-    }
-    return best != nullptr || !may_create ? best : unused;
   }
 
   // Recursion depth is kDepth, known at compile time.
@@ -352,10 +296,7 @@ class Octree {
   }
 
   std::array<Node, static_cast<std::size_t>(kMaxNodes)> nodes_;
-  std::array<std::array<Facet, static_cast<std::size_t>(kFacetsPerNode)>,
-             static_cast<std::size_t>(kMaxCoarseNodes)>
-      facets_;
-  FixedVector<Handle, kMaxCoarseNodes> free_facets_;
+  FacetPool<kMaxCoarseNodes> facets_;
   float cell_size_m_ = 0.0F;
   float inverse_cell_size_ = 0.0F;
   Handle root_ = 0;

@@ -36,6 +36,10 @@ class PoseSearch {
       return {T_predicted, T_predicted, Scale(kBelievedShare, kSearchedShare), 1};
     }
     Starts starts;
+    if (prior_.global >= 0) {
+      AddGlobal(starts);
+      return BestAndCentred(starts, conflict);
+    }
     (void)starts.push_back(T_predicted);
     (void)starts.push_back(prior_.T_previous);
     (void)starts.push_back(Recentred(T_predicted));
@@ -45,8 +49,32 @@ class PoseSearch {
     } else {
       AddTurned(starts);
     }
+    return prior_.search == 0 ? Best(starts, conflict) : BestAndCentred(starts, conflict);
+  }
+
+  /// Samples that starts are compared on.
+  static constexpr int kPoints = Limits::kMaxRegistrationPoints * 2 / 5;
+  /// Starts that are tried in one frame at most; one more while the object is searched for.
+  static constexpr int kMaxStarts = 8;
+  /// Frames in which a search in all directions is through.
+  static constexpr int kGlobalFrames = kGlobalRotations / kMaxStarts;
+
+ private:
+  using Starts = FixedVector<PoseObjectFromCamera, kMaxStarts>;
+
+  /// The n-th part of all rotations.
+  void AddGlobal(Starts& starts) const noexcept {
+    for (int i = prior_.global * kMaxStarts; i < kGlobalRotations && !starts.full(); ++i) {
+      const PoseObjectFromCamera turned(Mat3(GlobalRotation(i) * prior_.T_predicted.rotation()),
+                                        prior_.T_predicted.translation());
+      (void)starts.push_back(Recentred(turned));
+    }
+  }
+
+  template <class Conflict>
+  [[nodiscard]] Start BestAndCentred(const Starts& starts,
+                                     const Conflict& conflict) const noexcept {
     Start best = Best(starts, conflict);
-    if (prior_.search == 0) return best;
     // The centroid says more of the position once the rotation is right: a flat face slides.
     Starts again;
     (void)again.push_back(best.T_oc);
@@ -57,18 +85,11 @@ class PoseSearch {
     return best;
   }
 
-  /// Samples that starts are compared on.
-  static constexpr int kPoints = Limits::kMaxRegistrationPoints * 2 / 5;
-  /// Starts that are tried in one frame at most; one more while the object is searched for.
-  static constexpr int kMaxStarts = 8;
-
- private:
   static constexpr float kEdgeShare = 0.3F;
   static constexpr float kDeviationShare = 0.15F;
   static constexpr float kBelievedShare = 0.5F;
   static constexpr float kSearchedShare = 0.25F;
   static constexpr float kMinCosine = 0.3F;
-  using Starts = FixedVector<PoseObjectFromCamera, kMaxStarts>;
 
   [[nodiscard]] RobustScale Scale(float surface_share, float edge_share) const noexcept {
     return {surface_share * config_.robust_scale_start_m,

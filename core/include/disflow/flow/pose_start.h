@@ -26,12 +26,20 @@ struct PoseSearchPrior {
   /// 0: the object was registered in the last frame. Else it has to be searched for, for the
   /// n-th frame in a row.
   int search = 0;
+  /// Not negative: the object may have been turned anyhow meanwhile, and this is the n-th part of a
+  /// search in all directions, from 0.
+  int global = -1;
 };
 
 /// The axes and the diagonals of a cube, both ways.
 inline constexpr int kCubeDirections = 14;
 /// @param index From 0 to kCubeDirections - 1.
 [[nodiscard]] Vec3 CubeDirection(int index) noexcept;
+
+/// Rotations spread evenly, 40 degrees apart: none, those by 40, by 77, then by 117 degrees.
+inline constexpr int kGlobalRotations = 144;
+/// @param index From 0 to kGlobalRotations - 1.
+[[nodiscard]] Mat3 GlobalRotation(int index) noexcept;
 
 /// The pose in the middle between two, turned about a centre.
 /// @param center_c Camera frame.

@@ -13,8 +13,10 @@ class TrackingMonitor {
   /// What one frame offered as evidence.
   struct Evidence {
     bool registered = false;
+    bool in_view = false;   ///< Surface was observed that may be the object's.
     float score = 0.0F;     ///< Share of observed samples that the model explains.
     float conflict = 0.0F;  ///< Share of the model's visible points that are not there.
+    float visible = 0.0F;   ///< Share of the model's front that is in view and not hidden.
     int inliers = 0;
     int points = 0;               ///< Samples that were registered.
     float position_std_m = 0.0F;  ///< In the worst direction, as reported.
@@ -39,8 +41,14 @@ class TrackingMonitor {
   }
   /// Frames in a row, up to now, that could not be registered.
   [[nodiscard]] int missed() const noexcept { return missed_; }
-  /// Lost for so long that the object should be started anew.
-  [[nodiscard]] bool ShouldRestart(StampNs stamp_ns) const noexcept;
+  /// Frames that showed something in which the object was looked for in vain, since it was lost.
+  [[nodiscard]] int searched() const noexcept { return searched_; }
+  /// Whether a pose that may be any is beyond doubt: the model explains the frame as well as it did
+  /// before the loss, the frame contradicts the model as little, and no direction is left open.
+  [[nodiscard]] bool Recognises(const Evidence& evidence) const noexcept;
+  /// Something has been in view for so long without being recognised that the object should be
+  /// started anew. While nothing is in view its model is kept.
+  [[nodiscard]] bool ShouldRestart() const noexcept;
 
  private:
   static constexpr int kInitialFrames = 5;
@@ -66,6 +74,9 @@ class TrackingMonitor {
   std::uint8_t quality_ = 0;
   int frames_in_state_ = 0;
   int missed_ = 0;
+  int searched_ = 0;
+  StampNs searched_ns_ = 0;  ///< How long.
+  StampNs updated_ns_ = 0;
   StampNs last_registered_ns_ = 0;
 };
 

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "disflow/config.h"
+#include "disflow/depth/depth_reader.h"
+#include "disflow/depth/inverse_depth_block.h"
+#include "disflow/depth/pixel_row.h"
+
+namespace disflow {
+
+/// A rectangle of blocks around one of them.
+struct BlockWindow {
+  int column_min, column_max, row_min, row_max;  // offsets in blocks, both included
+};
+/// The whole neighbourhood first, then the halves and the quarters that contain the block itself.
+inline constexpr std::array<BlockWindow, 9> kBlockWindows{{{-1, 1, -1, 1},
+                                                           {-1, 0, -1, 1},
+                                                           {0, 1, -1, 1},
+                                                           {-1, 1, -1, 0},
+                                                           {-1, 1, 0, 1},
+                                                           {-1, 0, -1, 0},
+                                                           {0, 1, -1, 0},
+                                                           {-1, 0, 0, 1},
+                                                           {0, 1, 0, 1}}};
+
+/// Sums of the object's pixels per small block. The grid of blocks covers the object's bounding
+/// box; sums are kept only for blocks that hold pixels.
+template <class Limits>
+class BlockGrid {
+ public:
+  static constexpr std::uint16_t kNoSample = 65535;
+
+  /// Blocks as small as the number of samples allows.
+  /// @param interior Object pixels away from the outline.
+  /// @return How many of them have no depth.
+  template <class Mask>
+  int Build(const DepthReader& depth, const Mask& interior, const SamplerConfig& config) noexcept {
+    ChooseBlockSize(interior, config);
+    int without_depth = 0;
+    while (!LayOutGrid(interior.box()) || !SumBlocks(depth, interior, without_depth)) ++block_px_;
+    return without_depth;
+  }
+
+  [[nodiscard]] int block_px() const noexcept { return block_px_; }
+  [[nodiscard]] int columns() const noexcept { return columns_; }
+  [[nodiscard]] int rows() const noexcept { return rows_; }
+  /// Middle of a block whose pixels are all there, image coordinates.
+  [[nodiscard]] float CenterU(int column) const noexcept {
+    return static_cast<float>(origin_u_ + column * block_px_) +
+           0.5F * static_cast<float>(block_px_ - 1);
+  }
+  [[nodiscard]] float CenterV(int row) const noexcept {
+    return static_cast<float>(origin_v_ + row * block_px_) +
+           0.5F * static_cast<float>(block_px_ - 1);
+  }
+  [[nodiscard]] const PixelMoments& block(int column, int row) const noexcept {
+    return moments_[grid_[Index(column, row)]];
+  }
+  /// Whether a block has its eight neighbours in the grid.
+  [[nodiscard]] bool HasRing(int column, int row) const noexcept {
+    return column >= 1 && row >= 1 && column + 1 < columns_ && row + 1 < rows_;
+  }
+
+  /// The surface sample that was made of a block.
+  void SetSample(int column, int row, int sample) noexcept {
+    sample_of_[grid_[Index(column, row)]] = static_cast<std::uint16_t>(sample);
+  }
+  /// That of the block of a pixel; kNoSample if there is none.
+  [[nodiscard]] std::uint16_t SampleAt(int u, int v) const noexcept {
+    const int column = (u - origin_u_) / block_px_;
+    const int row = (v - origin_v_) / block_px_;
+    if (u < origin_u_ || v < origin_v_ || column >= columns_ || row >= rows_) return kNoSample;
+    return sample_of_[grid_[Index(column, row)]];
+  }
+
+  /// Sums over a window, about the middle of its own block.
+  [[nodiscard]] PixelMoments MergeWindow(int column, int row,
+                                         const BlockWindow& window) const noexcept {
+    PixelMoments sum = block(column, row);
+    const auto step = static_cast<float>(block_px_);
+    for (int r = std::max(row + window.row_min, 0); r <= std::min(row + window.row_max, rows_ - 1);
+         ++r) {
+      for (int c = std::max(column + window.column_min, 0);
+           c <= std::min(column + window.column_max, columns_ - 1); ++c) {
+        if (c == column && r == row) continue;
+        sum.Merge(block(c, r), step * static_cast<float>(c - column),
+                  step * static_cast<float>(r - row));
+      }
+    }
+    return sum;
+  }
+
+ private:
+  [[nodiscard]] std::size_t Index(int column, int row) const noexcept {
+    return static_cast<std::size_t>(row * columns_ + column);
+  }
+
+  /// The smallest blocks for which the samples are not too many.
+  template <class Mask>
+  void ChooseBlockSize(const Mask& interior, const SamplerConfig& config) noexcept {
+    const float pixels_per_block =
+        static_cast<float>(interior.count()) / static_cast<float>(config.target_blocks);
+    block_px_ = std::clamp(static_cast<int>(std::lround(std::sqrt(pixels_per_block))),
+                           config.min_block_px, config.max_block_px);
+    // Partly covered blocks yield samples too: leave them some room.
+    while (1.2F * static_cast<float>(interior.count()) >
+           static_cast<float>(Limits::kMaxSurfaceSamples * block_px_ * block_px_))
+      ++block_px_;
+  }
+
+  /// @return false if the grid has too many blocks.
+  [[nodiscard]] bool LayOutGrid(const PixelBox& box) noexcept {
+    columns_ = (box.width() + block_px_ - 1) / block_px_;
+    rows_ = (box.height() + block_px_ - 1) / block_px_;
+    if (columns_ * rows_ > Limits::kMaxBlocks) return false;
+    origin_u_ = box.u_min;
+    origin_v_ = box.v_min;
+    std::fill_n(grid_.begin(), columns_ * rows_, kEmptyBlock);
+    moments_[kEmptyBlock] = PixelMoments{};
+    sample_of_[kEmptyBlock] = kNoSample;
+    filled_ = 1;
+    return true;
+  }
+
+  /// @return false if too many blocks hold pixels.
+  template <class Mask>
+  [[nodiscard]] bool SumBlocks(const DepthReader& depth, const Mask& interior,
+                               int& without_depth) noexcept {
+    without_depth = 0;
+    bool fits = true;
+    const float half = 0.5F * static_cast<float>(block_px_ - 1);
+    const PixelBox& box = interior.box();
+    for (int v = box.v_min; v < box.v_max && fits; ++v) {
+      const int row = (v - origin_v_) / block_px_;
+      const float dv = static_cast<float>(v - origin_v_ - row * block_px_) - half;
+      int column = 0;
+      int u_begin = origin_u_;
+      interior.ForEachInRow(v, [&](int u) {
+        const float depth_m = depth.At(u, v);
+        if (depth_m <= 0.0F) {
+          ++without_depth;
+          return;
+        }
+        for (; u >= u_begin + block_px_; u_begin += block_px_) ++column;
+        PixelMoments* moments = FillBlock(Index(column, row));
+        if (moments == nullptr) {
+          fits = false;
+        } else {
+          moments->Add(static_cast<float>(u - u_begin) - half, dv, 1.0F / depth_m);
+        }
+      });
+    }
+    return fits;
+  }
+
+  /// The sums of a block that holds pixels; null if there is no room for more of them.
+  [[nodiscard]] PixelMoments* FillBlock(std::size_t place) noexcept {
+    std::uint16_t& index = grid_[place];
+    if (index == kEmptyBlock) {
+      if (filled_ == kMaxFilledBlocks) return nullptr;
+      index = static_cast<std::uint16_t>(filled_++);
+      moments_[index] = PixelMoments{};
+      sample_of_[index] = kNoSample;
+    }
+    return &moments_[index];
+  }
+
+  /// Full blocks and the partly covered ones along the outline.
+  static constexpr int kMaxFilledBlocks = Limits::kMaxSurfaceSamples * 5 / 4;
+  static_assert(kMaxFilledBlocks <= 65536 && Limits::kMaxSurfaceSamples < 65535);
+  static constexpr std::uint16_t kEmptyBlock = 0;
+
+  /// Per block of the grid where its sums are; blocks without pixels share the first.
+  std::array<std::uint16_t, static_cast<std::size_t>(Limits::kMaxBlocks)> grid_;
+  std::array<PixelMoments, static_cast<std::size_t>(kMaxFilledBlocks)> moments_;
+  std::array<std::uint16_t, static_cast<std::size_t>(kMaxFilledBlocks)> sample_of_;
+  int filled_ = 0;
+  int origin_u_ = 0;
+  int origin_v_ = 0;
+  int columns_ = 0;
+  int rows_ = 0;
+  int block_px_ = 1;
+};
+
+}  // namespace disflow

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+
+namespace disflow {
+
+/// Rectangle of pixels, half open: [u_min, u_max) x [v_min, v_max).
+struct PixelBox {
+  int u_min = 0;
+  int v_min = 0;
+  int u_max = 0;
+  int v_max = 0;
+
+  [[nodiscard]] bool empty() const noexcept { return u_min >= u_max || v_min >= v_max; }
+  [[nodiscard]] int width() const noexcept { return u_max - u_min; }
+  [[nodiscard]] int height() const noexcept { return v_max - v_min; }
+};
+
+/// One bit per pixel of an image row.
+template <int kMaxWidth>
+struct PixelRow {
+  using Word = std::uint64_t;
+  static constexpr int kBits = 64;
+  static constexpr int kWords = (kMaxWidth + kBits - 1) / kBits;
+  std::array<Word, static_cast<std::size_t>(kWords)> words;
+
+  [[nodiscard]] Word& operator[](int w) noexcept { return words[static_cast<std::size_t>(w)]; }
+  [[nodiscard]] Word operator[](int w) const noexcept { return words[static_cast<std::size_t>(w)]; }
+  void Clear() noexcept { words.fill(0); }
+
+  /// Marks the pixels [u_begin, u_end).
+  void SetRun(int u_begin, int u_end) noexcept {
+    ForEachWord(u_begin, u_end, [this](int w, Word bits) { (*this)[w] |= bits; });
+  }
+  void ClearRun(int u_begin, int u_end) noexcept {
+    ForEachWord(u_begin, u_end, [this](int w, Word bits) { (*this)[w] &= ~bits; });
+  }
+  /// Marked pixels in [u_begin, u_end).
+  [[nodiscard]] int CountRun(int u_begin, int u_end) const noexcept {
+    int count = 0;
+    ForEachWord(u_begin, u_end,
+                [&](int w, Word bits) { count += std::popcount((*this)[w] & bits); });
+    return count;
+  }
+  [[nodiscard]] bool Test(int u) const noexcept { return ((*this)[u / kBits] >> (u % kBits)) & 1U; }
+
+  /// Words [w_begin, w_end) of every pixel's own, its left and its right neighbour's bit, combined
+  /// by `Combine`; bits outside of those words count as 0.
+  template <class Combine>
+  void Neighbours(int w_begin, int w_end, Combine&& combine) noexcept {
+    Word before = 0;
+    for (int w = w_begin; w < w_end; ++w) {
+      const Word own = (*this)[w];
+      const Word after = w + 1 < w_end ? (*this)[w + 1] : 0;
+      (*this)[w] =
+          combine(own, (own << 1) | (before >> (kBits - 1)), (own >> 1) | (after << (kBits - 1)));
+      before = own;
+    }
+  }
+
+ private:
+  /// visit(index of a word, bits of it that belong to the run)
+  template <class Visitor>
+  static void ForEachWord(int u_begin, int u_end, Visitor&& visit) noexcept {
+    for (int u = u_begin; u < u_end;) {
+      const int first = u % kBits;
+      const int last = std::min(kBits, first + u_end - u);
+      const Word upto = last == kBits ? ~Word{0} : (Word{1} << last) - 1;
+      visit(u / kBits, upto & (~Word{0} << first));
+      u += last - first;
+    }
+  }
+};
+
+}  // namespace disflow

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "disflow/depth/depth_reader.h"
+#include "disflow/flow/model_agreement.h"
+#include "disflow/tracker.h"
+
+/// @file
+/// Definitions of those members of Tracker that make observations a part of the model, and that
+/// forget what was none of the object's; see tracker_impl.h.
+
+namespace disflow {
+
+/// Whether a point lies in space that the camera has looked through.
+template <CapacityProfile Limits>
+bool Tracker<Limits>::IsForeign(const Vec3& x_o) const noexcept {
+  return seen_.IsFree(x_o, config_.segmenter.free_margin_m);
+}
+
+template <CapacityProfile Limits>
+void Tracker<Limits>::RememberView(const DepthFrame& frame) noexcept {
+  const bool everything = !frame.mask.given() && config_.segmenter.grow_region == 0;
+  if (everything || config_.segmenter.free_margin_m == 0.0F) return;
+  constexpr float kFarthest_m = 60.0F;
+  seen_.Add(DepthReader(frame.depth, config_.segmenter.min_range_m, kFarthest_m), frame.camera,
+            T_oc_, object_mask_.box());
+}
+
+/// Surface that was learnt though it was not the object's, such as a piece of the table under a
+/// loose mask, stays behind when the object moves: then it is looked through.
+template <CapacityProfile Limits>
+void Tracker<Limits>::ForgetContradicted(const DepthFrame& frame, const PoseObjectFromCamera& T_oc,
+                                         Estimate& estimate) noexcept {
+  FixedVector<Handle, kMostForgotten> forgotten;
+  (void)CompareWithImage(field_, T_oc, frame.camera, UsableDepth(frame),
+                         [&](Handle handle, bool seen) {
+                           if (field_.Witness(handle, seen)) (void)forgotten.push_back(handle);
+                         });
+  for (const Handle handle : forgotten) field_.Forget(handle, estimate.rejected);
+}
+
+template <CapacityProfile Limits>
+void Tracker<Limits>::FuseObservations(const DepthFrame& frame, Estimate& estimate) noexcept {
+  const bool first = frame_index_ == 0;
+  const int wanted = first ? samples_.size() : std::min(samples_.size(), config_.field.fuse_budget);
+  // The subset moves from frame to frame, so that every part of the image gets its turn.
+  const int offset = static_cast<int>(frame_index_ % 7U);
+  const Mat3& R_oc = T_oc_.rotation();
+  const DepthReader depth = UsableDepth(frame);
+  for (int i = 0; i < wanted; ++i) {
+    const auto index = (static_cast<std::int64_t>(i) * samples_.size() + offset) / wanted;
+    SurfaceSample observation = samples_[std::min(static_cast<int>(index), samples_.size() - 1)];
+    const Vec2 px = frame.camera.Project(observation.position_m);
+    const bool undecided =
+        overrun_.IsReachedFrom(static_cast<int>(std::lround(px.x())),
+                               static_cast<int>(std::lround(px.y())), depth, frame.camera);
+    observation.position_m = T_oc_ * observation.position_m;
+    observation.normal = R_oc * observation.normal;
+    if (IsForeign(observation.position_m)) {
+      ++estimate.rejected.observations_rejected;
+      continue;
+    }
+    // The outcome is in the counters.
+    (void)field_.Insert(observation, frame_index_, estimate.rejected, !undecided);
+  }
+  for (const EdgePoint& point : edges_) {
+    const EdgePoint moved = T_oc_ * point;
+    if (IsForeign(moved.position_m)) continue;
+    model_edges_.Insert(moved, config_.field.merge_radius_m, estimate.rejected);
+  }
+}
+
+template <CapacityProfile Limits>
+void Tracker<Limits>::Retrain(Estimate& estimate) noexcept {
+  const int factor = frame_index_ < kInitialFrames ? kInitialBudgetFactor : 1;
+  (void)field_.Retrain(factor * config_.field.retrain_budget, estimate.rejected);
+  ++frame_index_;
+}
+
+}  // namespace disflow

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "disflow/flow/pose_start.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace disflow {
+namespace {
+
+/// Evenly distributed among the rotations by at most an angle.
+Mat3 RandomRotation(std::mt19937& random, float most_rad) {
+  std::normal_distribution<float> any;
+  for (;;) {
+    const Eigen::Quaternionf turn =
+        Eigen::Quaternionf(any(random), any(random), any(random), any(random)).normalized();
+    if (2.0F * std::acos(std::min(std::abs(turn.w()), 1.0F)) <= most_rad)
+      return turn.toRotationMatrix();
+  }
+}
+
+float AngleBetween(const Mat3& a, const Mat3& b) { return LogSo3(Mat3(a * b.transpose())).norm(); }
+
+TEST(GlobalRotation, EveryQuarterTurn_IsWithinReachOfARegistration) {
+  // What tests/property/pose_search_test.cc shows a registration to correct.
+  constexpr float kReach_rad = 0.53F;
+  constexpr float kQuarterTurn_rad = 1.571F;
+  std::mt19937 random(3);
+  for (int i = 0; i < 3000; ++i) {
+    const Mat3 wanted = RandomRotation(random, kQuarterTurn_rad);
+    float nearest_rad = AngleBetween(wanted, Mat3::Identity());
+    for (int k = 0; k < kGlobalRotations; ++k)
+      nearest_rad = std::min(nearest_rad, AngleBetween(wanted, GlobalRotation(k)));
+    ASSERT_LT(nearest_rad, kReach_rad);
+  }
+}
+
+TEST(GlobalRotation, Rotations_ComeInTheOrderOfTheirAngles) {
+  float before_rad = 0.0F;
+  for (int k = 0; k < kGlobalRotations; ++k) {
+    const Mat3 turn = GlobalRotation(k);
+    EXPECT_LT((turn * turn.transpose() - Mat3::Identity()).norm(), 1e-5F);
+    const float angle_rad = AngleBetween(turn, Mat3::Identity());
+    EXPECT_GT(angle_rad, before_rad - 1e-3F);
+    before_rad = angle_rad;
+  }
+}
+
+TEST(HalfWay, Pose_IsAsFarFromBoth) {
+  std::mt19937 random(5);
+  for (int i = 0; i < 100; ++i) {
+    const PoseObjectFromCamera a(RandomRotation(random, 1.0F), Vec3(Vec3::Random()));
+    const PoseObjectFromCamera b(Mat3(RandomRotation(random, 1.0F) * a.rotation()),
+                                 Vec3(Vec3::Random()));
+    const Vec3 center_c = Vec3::Random();
+    const PoseObjectFromCamera middle = HalfWay(center_c, a, b);
+    EXPECT_LT((middle * center_c - 0.5F * (a * center_c + b * center_c)).norm(), 1e-5F);
+    EXPECT_NEAR(AngleBetween(middle.rotation(), a.rotation()),
+                AngleBetween(middle.rotation(), b.rotation()), 1e-3F);
+  }
+}
+
+}  // namespace
+}  // namespace disflow
