@@ -34,8 +34,8 @@ Mat3 GlobalRotation(int index) noexcept {
     float angle_rad;
     int axes;
   };
-  constexpr std::array<Shell, 3> kShells{{{0.7F, 18}, {1.35F, 50}, {2.05F, 75}}};
-  static_assert(1 + kShells[0].axes + kShells[1].axes + kShells[2].axes == kGlobalRotations);
+  constexpr std::array<Shell, 2> kShells{{{0.7F, 18}, {1.35F, 53}}};
+  static_assert(1 + kShells[0].axes + kShells[1].axes == kGlobalRotations);
   if (index == 0) return Mat3::Identity();
   --index;
   for (const Shell& shell : kShells) {

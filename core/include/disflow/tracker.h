@@ -79,6 +79,8 @@ class Tracker {
   /// Frames in which a lost object is looked for near where it should be, before it is looked for
   /// turned anyhow.
   static constexpr int kLocalSearches = 2;
+  /// Many things look alike when they are turned about: more than a quarter turn is not believed.
+  static constexpr float kFarthestRecognised_rad = 1.9F;
   static constexpr int kInitialBudgetFactor = 12;
   static constexpr int kMostForgotten = 64;  ///< Clusters per frame; the rest goes in the next.
   static constexpr float kFade_s = 0.5F;     ///< Time constant of the velocity of an unseen object.
@@ -115,6 +117,7 @@ class Tracker {
   [[nodiscard]] PoseCameraFromObject Predict(const DepthFrame& frame) const noexcept;
   [[nodiscard]] bool IsSameObjectFrame(const DepthFrame& frame,
                                        const PoseObjectFromCamera& T_oc) const noexcept;
+  [[nodiscard]] float TurnSincePrediction(const PoseObjectFromCamera& T_oc) const noexcept;
   void Coast(StampNs stamp_ns, Estimate& estimate) const noexcept;
   [[nodiscard]] PoseCovariance CovarianceOf(const Aligned& aligned,
                                             StampNs stamp_ns) const noexcept;

@@ -88,7 +88,8 @@ Status Tracker<Limits>::Conclude(const DepthFrame& frame, Status observed, const
   const bool explained =
       evidence.in_view && near && evidence.registered && monitor_.Explains(evidence);
   if (followed || explained) ForgetContradicted(frame, aligned.T_oc, estimate);
-  const bool recognised = evidence.in_view && !near && monitor_.Recognises(evidence);
+  const bool recognised = evidence.in_view && !near && monitor_.Recognises(evidence) &&
+                          TurnSincePrediction(aligned.T_oc) <= kFarthestRecognised_rad;
   const bool found_again = recognition_.Confirm(recognised, aligned.T_oc, registration_.center_c());
   evidence.registered = followed || found_again;
   monitor_.Update(evidence, frame.stamp_ns);
@@ -157,9 +158,14 @@ bool Tracker<Limits>::IsSameObjectFrame(const DepthFrame& frame,
   constexpr float kFarthestTurn_rad = 1.6F;
   constexpr float kLongest_s = 0.6F;  // what is moved by hand has come to anything by then
   const float gap_s = Seconds(SpanNs(twist_filter_.stamp_ns(), frame.stamp_ns));
-  const Vec3 off = LogSo3(Mat3(T_oc.rotation() * T_oc_.rotation().transpose()));
-  return gap_s <= kLongest_s && off.norm() <= kReach_rad &&
+  return gap_s <= kLongest_s && TurnSincePrediction(T_oc) <= kReach_rad &&
          gap_s * twist_filter_.twist().angular_rps.norm() <= kFarthestTurn_rad;
+}
+
+/// Angle between a pose's rotation and the predicted one.
+template <CapacityProfile Limits>
+float Tracker<Limits>::TurnSincePrediction(const PoseObjectFromCamera& T_oc) const noexcept {
+  return LogSo3(Mat3(T_oc.rotation() * T_oc_.rotation().transpose())).norm();
 }
 
 /// What is known of the motion of an object that is not seen. The filter itself stays at the last

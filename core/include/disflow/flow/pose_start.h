@@ -36,8 +36,8 @@ inline constexpr int kCubeDirections = 14;
 /// @param index From 0 to kCubeDirections - 1.
 [[nodiscard]] Vec3 CubeDirection(int index) noexcept;
 
-/// Rotations spread evenly, 40 degrees apart: none, those by 40, by 77, then by 117 degrees.
-inline constexpr int kGlobalRotations = 144;
+/// Rotations spread evenly, 40 degrees apart: none, those by 40, then by 77 degrees.
+inline constexpr int kGlobalRotations = 72;
 /// @param index From 0 to kGlobalRotations - 1.
 [[nodiscard]] Mat3 GlobalRotation(int index) noexcept;
 
