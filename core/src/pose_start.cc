@@ -34,20 +34,16 @@ Mat3 GlobalRotation(int index) noexcept {
     float angle_rad;
     int axes;
   };
-  constexpr std::array<Shell, 2> kShells{{{0.7F, 18}, {1.35F, 53}}};
-  static_assert(1 + kShells[0].axes + kShells[1].axes == kGlobalRotations);
-  if (index == 0) return Mat3::Identity();
-  --index;
-  for (const Shell& shell : kShells) {
-    if (index < shell.axes) return ExpSo3(Vec3(shell.angle_rad * LatticeAxis(index, shell.axes)));
-    index -= shell.axes;
-  }
-  return Mat3::Identity();
+  constexpr std::array<Shell, 3> kShells{{{0.0F, 1}, {0.7F, 18}, {1.35F, 53}}};
+  static_assert(kShells[0].axes + kShells[1].axes + kShells[2].axes == kGlobalRotations);
+  std::size_t shell = 0;
+  while (index >= kShells[shell].axes) index -= kShells[shell++].axes;
+  return ExpSo3(Vec3(kShells[shell].angle_rad * LatticeAxis(index, kShells[shell].axes)));
 }
 
 PoseObjectFromCamera HalfWay(const Vec3& center_c, const PoseObjectFromCamera& a,
                              const PoseObjectFromCamera& b) noexcept {
-  const Vec3 turn = 0.5F * LogSo3(Mat3(b.rotation() * a.rotation().transpose()));
+  const Vec3 turn = 0.5F * TurnBetween(a.rotation(), b.rotation());
   const Mat3 rotation = ExpSo3(turn) * a.rotation();
   const Vec3 center_o = 0.5F * (a * center_c + b * center_c);
   return {rotation, Vec3(center_o - rotation * center_c)};
@@ -58,7 +54,7 @@ float ImpulsesApart(const Vec3& center_c, const PoseObjectFromCamera& T_oc,
   constexpr float kShift_m = 0.025F;
   constexpr float kTurn_rad = 0.2F;
   const Vec3 shift = T_oc * center_c - T_predicted * center_c;
-  const Vec3 turn = LogSo3(Mat3(T_oc.rotation() * T_predicted.rotation().transpose()));
+  const Vec3 turn = TurnBetween(T_predicted.rotation(), T_oc.rotation());
   return shift.squaredNorm() / (kShift_m * kShift_m) + turn.squaredNorm() / (kTurn_rad * kTurn_rad);
 }
 

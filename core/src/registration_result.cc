@@ -23,7 +23,7 @@ Vec6 DeviationAbout(const Vec3& center_c, const PoseObjectFromCamera& T_oc,
                     const PoseObjectFromCamera& T_from) noexcept {
   Vec6 deviation;
   deviation.head<3>() = T_oc * center_c - T_from * center_c;
-  deviation.tail<3>() = LogSo3(Mat3(T_oc.rotation() * T_from.rotation().transpose()));
+  deviation.tail<3>() = TurnBetween(T_from.rotation(), T_oc.rotation());
   return deviation;
 }
 

@@ -137,7 +137,7 @@ void TwistFilter::AddProcessNoise(float dt) noexcept {
 void TwistFilter::Update(const PoseCameraFromObject& T_co, const Mat6& pose_covariance) noexcept {
   Vec6 innovation;
   innovation.head<3>() = T_co.translation() - T_co_.translation();
-  innovation.tail<3>() = LogSo3(Mat3(T_co.rotation() * T_co_.rotation().transpose()));
+  innovation.tail<3>() = TurnBetween(T_co_.rotation(), T_co.rotation());
   SymmetricSolver6 solver(covariance_[0][0] + pose_covariance);
   // Only for a measurement that is not finite; the prediction stands.
   if (!solver.ok() || !innovation.allFinite()) return;

@@ -29,7 +29,7 @@ Difference Largest(const std::vector<apps::BoardAnswer>& answers,
   for (std::size_t i = 0; i < answers.size(); ++i) {
     const PoseCameraFromObject target = apps::PoseOf(answers[i].odometry);
     const PoseCameraFromObject& expected = host.at(i);
-    const Vec3 off = LogSo3(Mat3(target.rotation() * expected.rotation().transpose()));
+    const Vec3 off = TurnBetween(expected.rotation(), target.rotation());
     largest.position_m =
         std::max(largest.position_m, (target.translation() - expected.translation()).norm());
     largest.rotation_rad = std::max(largest.rotation_rad, off.norm());

@@ -54,8 +54,7 @@ class LostBox : public ::testing::Test {
     const auto aligned =
         registration_->Align(*model_, edges_, config_, start.T_oc, start.T_expected,
                              start.robust_scale, config_.iterations);
-    const Mat3 turn = aligned.T_oc.rotation() * T_oc_.rotation().transpose();
-    return LogSo3(turn).norm() < 0.02F &&
+    return TurnBetween(T_oc_.rotation(), aligned.T_oc.rotation()).norm() < 0.02F &&
            (aligned.T_oc.Inverse().translation() - T_oc_.Inverse().translation()).norm() < 0.003F;
   }
 

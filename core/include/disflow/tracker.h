@@ -117,7 +117,6 @@ class Tracker {
   [[nodiscard]] PoseCameraFromObject Predict(const DepthFrame& frame) const noexcept;
   [[nodiscard]] bool IsSameObjectFrame(const DepthFrame& frame,
                                        const PoseObjectFromCamera& T_oc) const noexcept;
-  [[nodiscard]] float TurnSincePrediction(const PoseObjectFromCamera& T_oc) const noexcept;
   void Coast(StampNs stamp_ns, Estimate& estimate) const noexcept;
   [[nodiscard]] PoseCovariance CovarianceOf(const Aligned& aligned,
                                             StampNs stamp_ns) const noexcept;

@@ -88,8 +88,9 @@ Status Tracker<Limits>::Conclude(const DepthFrame& frame, Status observed, const
   const bool explained =
       evidence.in_view && near && evidence.registered && monitor_.Explains(evidence);
   if (followed || explained) ForgetContradicted(frame, aligned.T_oc, estimate);
-  const bool recognised = evidence.in_view && !near && monitor_.Recognises(evidence) &&
-                          TurnSincePrediction(aligned.T_oc) <= kFarthestRecognised_rad;
+  const bool recognised =
+      evidence.in_view && !near && monitor_.Recognises(evidence) &&
+      TurnBetween(T_oc_.rotation(), aligned.T_oc.rotation()).norm() <= kFarthestRecognised_rad;
   const bool found_again = recognition_.Confirm(recognised, aligned.T_oc, registration_.center_c());
   evidence.registered = followed || found_again;
   monitor_.Update(evidence, frame.stamp_ns);
@@ -110,6 +111,7 @@ void Tracker<Limits>::Follow(StampNs stamp_ns, const Aligned& aligned,
                              Estimate& estimate) noexcept {
   T_oc_ = aligned.T_oc;
   T_oc_previous_ = T_oc_;
+  recognition_.Forget();
   if (covariance.twist_unobserved.isZero(0.0F)) observed_ns_ = stamp_ns;
   // The twist filter sees differences between frames, in which the drift of the model cancels.
   if (found_again) {
@@ -158,14 +160,9 @@ bool Tracker<Limits>::IsSameObjectFrame(const DepthFrame& frame,
   constexpr float kFarthestTurn_rad = 1.6F;
   constexpr float kLongest_s = 0.6F;  // what is moved by hand has come to anything by then
   const float gap_s = Seconds(SpanNs(twist_filter_.stamp_ns(), frame.stamp_ns));
-  return gap_s <= kLongest_s && TurnSincePrediction(T_oc) <= kReach_rad &&
+  return gap_s <= kLongest_s &&
+         TurnBetween(T_oc_.rotation(), T_oc.rotation()).norm() <= kReach_rad &&
          gap_s * twist_filter_.twist().angular_rps.norm() <= kFarthestTurn_rad;
-}
-
-/// Angle between a pose's rotation and the predicted one.
-template <CapacityProfile Limits>
-float Tracker<Limits>::TurnSincePrediction(const PoseObjectFromCamera& T_oc) const noexcept {
-  return LogSo3(Mat3(T_oc.rotation() * T_oc_.rotation().transpose())).norm();
 }
 
 /// What is known of the motion of an object that is not seen. The filter itself stays at the last

@@ -1,20 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
-#include <sys/socket.h>
-#include <sys/un.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cstddef>
 #include <cstdlib>
-#include <cstring>
 
 #include "child_process.h"
-#include "disflow/posix/file_descriptor.h"
 #include "estimate_csv.h"
 #include "eventually.h"
 #include "scratch_folder.h"
+#include "service_manager.h"
 
 namespace disflow::test {
 namespace {
@@ -79,34 +75,10 @@ TEST_F(LiveTest, StopSignal_EndsALiveRunWithEverythingWritten) {
   EXPECT_EQ(ReadFile(Path("run.csv")).back(), '\n');
 }
 
-/// What systemd is to a service.
 class ServiceTest : public ScratchFolderTest {
  protected:
-  ServiceTest() : socket_(::socket(AF_UNIX, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)) {
-    sockaddr_un own{};
-    own.sun_family = AF_UNIX;
-    const std::string path = Path("notify");
-    std::memcpy(own.sun_path, path.c_str(), path.size());
-    EXPECT_EQ(::bind(socket_.get(), reinterpret_cast<const sockaddr*>(&own), sizeof(own)), 0);
-    ::setenv("NOTIFY_SOCKET", path.c_str(), 1);
-    ::setenv("WATCHDOG_USEC", "900000", 1);
-  }
-  ~ServiceTest() override {
-    ::unsetenv("NOTIFY_SOCKET");
-    ::unsetenv("WATCHDOG_USEC");
-  }
-  Arguments Received() {
-    Arguments messages;
-    std::array<char, 512> buffer{};
-    for (;;) {
-      const ssize_t size = ::recv(socket_.get(), buffer.data(), buffer.size(), 0);
-      if (size < 0) return messages;
-      messages.emplace_back(buffer.data(), static_cast<std::size_t>(size));
-    }
-  }
-
- private:
-  posix::FileDescriptor socket_;
+  ServiceTest() { manager_.StartWatchdog(900'000); }
+  const ServiceManager manager_{Path("notify")};
 };
 
 TEST_F(ServiceTest, ServiceManager_IsToldOfStartLifeStateAndEnd) {
@@ -115,7 +87,7 @@ TEST_F(ServiceTest, ServiceManager_IsToldOfStartLifeStateAndEnd) {
   // Read while it runs: the socket holds ten messages, and a slow run sends more.
   Arguments messages;
   ASSERT_TRUE(Eventually([&] {
-    for (const std::string& message : Received()) messages.push_back(message);
+    for (const std::string& message : manager_.Received()) messages.push_back(message);
     return !messages.empty() && messages.back() == "STOPPING=1";
   }));
   const Outcome outcome = track.Wait();
@@ -130,7 +102,7 @@ TEST_F(ServiceTest, ServiceManager_IsToldOfStartLifeStateAndEnd) {
 
 TEST_F(ServiceTest, StartThatFails_IsNeverCalledReady) {
   EXPECT_NE(RunTrack({"--sensor", "replay:/nonexistent"}, scratch()).exit_status, 0);
-  EXPECT_TRUE(Received().empty());
+  EXPECT_TRUE(manager_.Received().empty());
 }
 
 class RunFileTest : public ScratchFolderTest {};

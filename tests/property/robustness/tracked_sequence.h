@@ -102,8 +102,8 @@ class TrackedSequence {
     }
     const auto claimed = said * tie_;
     result.off_m = (claimed.translation() - truth.translation()).norm();
-    const host::Mat3d turn = claimed.rotation() * truth.rotation().transpose();
-    result.off_deg = LogSo3(turn).norm() * 180.0 / 3.14159265358979;
+    const double off_rad = TurnBetween(truth.rotation(), claimed.rotation()).norm();
+    result.off_deg = off_rad * 180.0 / 3.14159265358979;
     frames_.push_back(result);
   }
 

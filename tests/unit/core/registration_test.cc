@@ -83,7 +83,7 @@ class Seen {
   [[nodiscard]] Vec6 ErrorOf(const PoseObjectFromCamera& T_oc) const {
     Vec6 error;
     error.head<3>() = T_oc * registration_->center_c() - T_oc_ * registration_->center_c();
-    error.tail<3>() = LogSo3(Mat3(T_oc.rotation() * T_oc_.rotation().transpose()));
+    error.tail<3>() = TurnBetween(T_oc_.rotation(), T_oc.rotation());
     return error;
   }
   [[nodiscard]] EdgeRegistration::Result Align(const PoseObjectFromCamera& T_start,

@@ -173,7 +173,7 @@ TEST(TwistFilter, Extrapolation_KeepsTheVelocityAndChangesNothing) {
   constexpr float kAhead_s = 0.2F;
   const PoseCameraFromObject there = filter.Extrapolate(filter.stamp_ns() + 200'000'000);
   EXPECT_LT((there.translation() - at.translation() - kAhead_s * twist.linear_mps).norm(), 1e-6F);
-  const Vec3 turned = LogSo3(Mat3(there.rotation() * at.rotation().transpose()));
+  const Vec3 turned = TurnBetween(at.rotation(), there.rotation());
   EXPECT_LT((turned - kAhead_s * twist.angular_rps).norm(), 1e-5F);
   EXPECT_EQ(filter.T_co().translation(), at.translation());
   EXPECT_EQ(filter.pose_covariance(), covariance);
@@ -348,7 +348,7 @@ TEST(TwistFilter, ErrorsOfAMotionAsAssumed_AreAsLargeAsSaid) {
     }
     Vec6 error;
     error.head<3>() = filter.T_co().translation() - object.T_co().translation();
-    error.tail<3>() = LogSo3(Mat3(filter.T_co().rotation() * object.T_co().rotation().transpose()));
+    error.tail<3>() = TurnBetween(object.T_co().rotation(), filter.T_co().rotation());
     pose_sum += static_cast<double>(Squared(error, filter.pose_covariance()));
     error.head<3>() = filter.twist().linear_mps - object.twist().head<3>();
     error.tail<3>() = filter.twist().angular_rps - object.twist().tail<3>();

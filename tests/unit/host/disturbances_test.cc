@@ -136,8 +136,7 @@ TEST(Leaving, Velocities_AreTheDerivativesOfThePoses) {
     const auto before = motion->At(time_s - kStep_s).pose;
     const auto after = motion->At(time_s + kStep_s).pose;
     const Vec3d v = (after.translation() - before.translation()) / (2.0 * kStep_s);
-    const Vec3d w =
-        LogSo3(Mat3d(after.rotation() * before.rotation().transpose())) / (2.0 * kStep_s);
+    const Vec3d w = TurnBetween(before.rotation(), after.rotation()) / (2.0 * kStep_s);
     EXPECT_LT((v - motion->At(time_s).linear_mps).norm(), 1e-5) << time_s;
     EXPECT_LT((w - motion->At(time_s).angular_rps).norm(), 1e-5) << time_s;
   }

@@ -43,8 +43,7 @@ TEST_P(Motion, Velocities_AreTheDerivativesOfThePoses) {
     const auto after = motion->At(time_s + kStep_s).pose;
     const auto state = motion->At(time_s);
     const Vec3d v = (after.translation() - before.translation()) / (2.0 * kStep_s);
-    const Vec3d w =
-        LogSo3(Mat3d(after.rotation() * before.rotation().transpose())) / (2.0 * kStep_s);
+    const Vec3d w = TurnBetween(before.rotation(), after.rotation()) / (2.0 * kStep_s);
     ASSERT_LT((v - state.linear_mps).norm(), 1e-5) << "frame " << frame;
     ASSERT_LT((w - state.angular_rps).norm(), 1e-5) << "frame " << frame;
   }
@@ -117,7 +116,7 @@ TEST(Fast, TurnsNewSidesIntoView) {
   const Mat3d start = motion->At(0.0).pose.rotation();
   for (int i = 0; i < 300; ++i) {
     const Mat3d rotation = motion->At(i * kFrame_s).pose.rotation();
-    largest_rad = std::max(largest_rad, LogSo3(Mat3d(rotation * start.transpose())).norm());
+    largest_rad = std::max(largest_rad, TurnBetween(start, rotation).norm());
   }
   EXPECT_GT(largest_rad, 90.0 * kRadPerDeg);
 }

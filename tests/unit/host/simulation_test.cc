@@ -167,8 +167,7 @@ TEST(MovingCamera, Twist_IsTheDerivativeOfTheRelativePose) {
     const auto after = simulation.TruthAt(index + 1).object.pose;
     const auto state = simulation.TruthAt(index).object;
     const Vec3d v = (after.translation() - before.translation()) * 0.5 * options.fps;
-    const Vec3d w =
-        LogSo3(Mat3d(after.rotation() * before.rotation().transpose())) * 0.5 * options.fps;
+    const Vec3d w = TurnBetween(before.rotation(), after.rotation()) * 0.5 * options.fps;
     ASSERT_LT((v - state.linear_mps).norm(), 1e-5);
     ASSERT_LT((w - state.angular_rps).norm(), 1e-4);
   }

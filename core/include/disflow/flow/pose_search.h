@@ -57,7 +57,7 @@ class PoseSearch {
   /// Starts that are tried in one frame at most; one more while the object is searched for.
   static constexpr int kMaxStarts = 8;
   /// Frames in which a search in all directions is through.
-  static constexpr int kGlobalFrames = kGlobalRotations / kMaxStarts;
+  static constexpr int kGlobalFrames = (kGlobalRotations + kMaxStarts - 1) / kMaxStarts;
 
  private:
   using Starts = FixedVector<PoseObjectFromCamera, kMaxStarts>;
@@ -65,10 +65,13 @@ class PoseSearch {
   /// The n-th part of all rotations.
   void AddGlobal(Starts& starts) const noexcept {
     for (int i = prior_.global * kMaxStarts; i < kGlobalRotations && !starts.full(); ++i) {
-      const PoseObjectFromCamera turned(Mat3(GlobalRotation(i) * prior_.T_predicted.rotation()),
-                                        prior_.T_predicted.translation());
-      (void)starts.push_back(Recentred(turned));
+      (void)starts.push_back(PredictedTurned(GlobalRotation(i)));
     }
+  }
+
+  [[nodiscard]] PoseObjectFromCamera PredictedTurned(const Mat3& turn) const noexcept {
+    return Recentred(
+        {Mat3(turn * prior_.T_predicted.rotation()), prior_.T_predicted.translation()});
   }
 
   template <class Conflict>
@@ -103,10 +106,7 @@ class PoseSearch {
     constexpr float kAngle_rad = 0.38F;
     for (int i = 0; !starts.full(); ++i) {
       const int index = ((prior_.search - 1) * (kMaxStarts - 4) + i) % kCubeDirections;
-      const Vec3 turn = kAngle_rad * CubeDirection(index);
-      const PoseObjectFromCamera turned(Mat3(ExpSo3(turn) * prior_.T_predicted.rotation()),
-                                        prior_.T_predicted.translation());
-      (void)starts.push_back(Recentred(turned));
+      (void)starts.push_back(PredictedTurned(ExpSo3(Vec3(kAngle_rad * CubeDirection(index)))));
     }
   }
 

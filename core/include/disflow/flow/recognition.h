@@ -41,7 +41,7 @@ class Recognition {
 
   [[nodiscard]] bool IsNear(const PoseObjectFromCamera& T_oc, const Vec3& center_c) const noexcept {
     return (T_oc * center_c - T_oc_ * center_c).norm() < kSameShift_m &&
-           LogSo3(Mat3(T_oc.rotation() * T_oc_.rotation().transpose())).norm() < kSameTurn_rad;
+           TurnBetween(T_oc_.rotation(), T_oc.rotation()).norm() < kSameTurn_rad;
   }
 
   int patience_ = 0;  ///< Frames that may still confirm.

@@ -67,6 +67,13 @@ template <class Scalar>
   return (Scalar(2) * atan2(s, q.w()) / s) * q.vec();
 }
 
+/// The rotation vector that leads from one rotation to the other: to = exp(turn) from.
+template <class Scalar>
+[[nodiscard]] inline Mat<Scalar, 3> TurnBetween(const Mat<Scalar, 3, 3>& from,
+                                                const Mat<Scalar, 3, 3>& to) noexcept {
+  return LogSo3<Scalar>(to * from.transpose());
+}
+
 /// Left Jacobian of SO(3): exp(theta + d) ~ exp(J_l(theta) d) exp(theta).
 template <class Scalar>
 [[nodiscard]] inline Mat<Scalar, 3, 3> LeftJacobianSo3(const Mat<Scalar, 3>& theta) noexcept {

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "program/exit_status.h"
+#include "refusal.h"
 #include "scratch_folder.h"
 
 namespace disflow::apps {
@@ -18,15 +19,8 @@ class OutputNamesTest : public test::ScratchFolderTest {
   OutputNamesTest() : options_() { options_.objects.resize(1); }
 
   ObjectFiles& files(std::size_t object = 0) { return options_.objects[object].files; }
-  /// @return What is said; empty if the names are accepted.
   [[nodiscard]] std::string Refusal() const {
-    try {
-      RefuseSharedOutputs(options_);
-    } catch (const Failure& failure) {
-      EXPECT_EQ(failure.status(), kWrongUsage);
-      return failure.what();
-    }
-    return "";
+    return RefusalOf([&] { RefuseSharedOutputs(options_); });
   }
 
   Options options_;

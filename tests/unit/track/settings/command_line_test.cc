@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "program/exit_status.h"
+#include "refusal.h"
 #include "scratch_folder.h"
 #include "settings/options.h"
 
@@ -21,13 +22,7 @@ class CommandLineTest : public test::ScratchFolderTest {
     return ParseAll(std::move(arguments));
   }
   static std::string Refusal(const std::vector<std::string>& arguments) {
-    try {
-      (void)Parse(arguments);
-    } catch (const Failure& failure) {
-      EXPECT_EQ(failure.status(), kWrongUsage);
-      return failure.what();
-    }
-    return "";
+    return RefusalOf([&] { (void)Parse(arguments); });
   }
 
  private:

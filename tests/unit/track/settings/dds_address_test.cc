@@ -7,19 +7,13 @@
 #include <random>
 
 #include "program/exit_status.h"
+#include "refusal.h"
 
 namespace disflow::apps {
 namespace {
 
-/// What the parser says of an address that it does not take.
 std::string Refusal(const std::string& uri) {
-  try {
-    (void)ParseDdsAddress(uri);
-  } catch (const Failure& failure) {
-    EXPECT_EQ(failure.status(), kWrongUsage);
-    return failure.what();
-  }
-  return "taken";
+  return RefusalOf([&] { (void)ParseDdsAddress(uri); });
 }
 
 TEST(DdsAddress, EveryOption_IsTaken) {

@@ -7,6 +7,7 @@
 
 #include "disflow/hal/mavlink/telemetry.h"
 #include "program/exit_status.h"
+#include "refusal.h"
 
 namespace disflow::apps {
 namespace {
@@ -20,13 +21,7 @@ std::vector<ObjectOptions> Make(const std::vector<std::string>& texts,
 }
 
 std::string Refusal(const std::vector<std::string>& texts, const CommonObjectOptions& common = {}) {
-  try {
-    (void)Make(texts, common);
-  } catch (const Failure& failure) {
-    EXPECT_EQ(failure.status(), kWrongUsage);
-    return failure.what();
-  }
-  return "";
+  return RefusalOf([&] { (void)Make(texts, common); });
 }
 
 TEST(ObjectList, NothingNamed_IsOneObjectThatUsesTheMask) {

@@ -11,6 +11,7 @@
 
 #include "disflow/config_fields.h"
 #include "program/exit_status.h"
+#include "refusal.h"
 #include "scratch_folder.h"
 
 namespace disflow::apps {
@@ -47,15 +48,8 @@ class SettingsFileTest : public test::ScratchFolderTest {
     test::WriteFile(Path("run.toml"), text);
     return LoadSettings(Path("run.toml"), config_);
   }
-  /// @return What is said; empty if the file is taken.
   std::string Refusal(const std::string& text) {
-    try {
-      (void)Load(text);
-    } catch (const Failure& failure) {
-      EXPECT_EQ(failure.status(), kWrongUsage);
-      return failure.what();
-    }
-    return "";
+    return RefusalOf([&] { (void)Load(text); });
   }
 
   Config config_;
