@@ -7,14 +7,59 @@
 namespace disflow {
 namespace {
 
+constexpr float kMaxWeight = 20.0F;
+
 bool Agree(const ModelEdge& edge, const EdgePoint& point) noexcept {
-  constexpr float kSimilarDirectionCos = 0.94F;
+  constexpr float kMostTurnSin = 0.34F;  // 20 degrees
   constexpr float kSimilarNormalCos = 0.8F;
-  return std::abs(edge.direction.dot(point.direction)) > kSimilarDirectionCos &&
+  return std::abs(edge.direction.dot(point.outward)) < kMostTurnSin &&
          edge.normal.dot(point.normal) > kSimilarNormalCos;
 }
 
+/// Kalman update with the position along one unit vector.
+void Update(const Vec3& unit, float innovation_m, float variance_m2, const Mat<float, 3, 2>& across,
+            ModelEdge& edge) noexcept {
+  const Vec2 row = across.transpose() * unit;
+  const Vec2 p_row = edge.covariance * row;
+  const float innovation_m2 = row.dot(p_row) + variance_m2;
+  edge.position_m += innovation_m / innovation_m2 * (across * p_row);
+  // Symmetric to the bit: what is not would grow.
+  edge.covariance -= p_row * p_row.transpose() / innovation_m2;
+}
+
+/// The outline in the image, and, by the depth, how far along the ray it is.
+void Observe(const EdgePoint& point, ModelEdge& edge) noexcept {
+  const Mat<float, 3, 2> across = edge.Across();
+  Update(point.outward, point.outward.dot(point.position_m - edge.position_m), point.variance_m2,
+         across, edge);
+  const Vec3 back = edge.direction.cross(point.outward);
+  const float along_ray = point.ray.dot(back);
+  Update(back, back.dot(point.position_m - edge.position_m),
+         point.variance_m2 + point.depth_variance_m2 * along_ray * along_ray, across, edge);
+}
+
 }  // namespace
+
+Mat<float, 3, 2> ModelEdge::Across() const noexcept {
+  Mat<float, 3, 2> across;
+  across.col(0) = normal.cross(direction).normalized();
+  across.col(1) = direction.cross(across.col(0));
+  return across;
+}
+
+float ModelEdge::VarianceAlong(const Vec3& unit) const noexcept {
+  const Vec2 row = Across().transpose() * unit;
+  return row.dot(covariance * row);
+}
+
+ModelEdge MakeModelEdge(const EdgePoint& point, std::uint32_t frame) noexcept {
+  constexpr float kAnywhere_m = 0.1F;
+  ModelEdge edge{point.position_m,        point.direction, point.normal, frame, 1.0F,
+                 Mat<float, 2, 2>::Zero()};
+  edge.covariance.diagonal().setConstant(kAnywhere_m * kAnywhere_m);
+  Observe(point, edge);
+  return edge;
+}
 
 int FindNearestEdge(std::span<const ModelEdge> edges, const EdgePoint& point,
                     float radius_m) noexcept {
@@ -30,16 +75,36 @@ int FindNearestEdge(std::span<const ModelEdge> edges, const EdgePoint& point,
   return nearest;
 }
 
-void MergeIntoEdge(const EdgePoint& point, ModelEdge& edge) noexcept {
-  constexpr float kMaxWeight = 20.0F;
+void MergeIntoEdge(const EdgePoint& point, std::uint32_t frame, ModelEdge& edge) noexcept {
+  edge.last_seen = frame;
+  // What is old is believed less, so that an edge can still move.
+  if (edge.weight >= kMaxWeight) edge.covariance *= (kMaxWeight + 1.0F) / kMaxWeight;
+  Observe(point, edge);
   const float gain = 1.0F / (edge.weight + 1.0F);
-  const Vec3 offset = point.position_m - edge.position_m;
-  // Along the edge nothing is known: only the part across it is averaged.
-  edge.position_m += gain * (offset - edge.direction * edge.direction.dot(offset));
   const float sign = edge.direction.dot(point.direction) < 0.0F ? -1.0F : 1.0F;
   edge.direction = (edge.direction + gain * (sign * point.direction - edge.direction)).normalized();
   edge.normal = (edge.normal + gain * (point.normal - edge.normal)).normalized();
   edge.weight = std::fmin(edge.weight + 1.0F, kMaxWeight);
+}
+
+int FindForgettable(std::span<const ModelEdge> edges, std::uint32_t frame) noexcept {
+  constexpr float kKnownWeight = 3.0F;
+  const ModelEdge* found = nullptr;
+  for (const ModelEdge& edge : edges) {
+    if (edge.last_seen == frame) continue;
+    const bool known = edge.weight >= kKnownWeight;
+    const bool found_is_known = found == nullptr || found->weight >= kKnownWeight;
+    const bool better = known == found_is_known
+                            ? found == nullptr || edge.last_seen < found->last_seen
+                            : found_is_known;
+    if (better) found = &edge;
+  }
+  return found == nullptr ? -1 : static_cast<int>(found - edges.data());
+}
+
+float MergeRadius(const EdgePoint& point, float merge_radius_m) noexcept {
+  constexpr float kSigmas = 2.0F;
+  return std::sqrt(merge_radius_m * merge_radius_m + kSigmas * kSigmas * point.depth_variance_m2);
 }
 
 }  // namespace disflow

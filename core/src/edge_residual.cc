@@ -3,18 +3,18 @@
 
 namespace disflow {
 
-Residual EdgeResidualOf(const EdgePoint& moved, const ModelEdge& edge, float std_px) noexcept {
+Residual EdgeResidualOf(const EdgePoint& moved, const ModelEdge& edge) noexcept {
   constexpr float kMinSine = 0.3F;  // between ray and edge
   Residual residual;
-  const Vec3 across = moved.ray.cross(edge.direction);
+  Vec3 across = moved.ray.cross(edge.direction);
+  if (across.dot(moved.outward) < 0.0F) across = -across;
   const float sine = across.norm();
   if (sine < kMinSine) return residual;
-  const float std_m = std_px * moved.pixel_m;
   residual.status = ResidualStatus::kMatched;
   residual.point_m = moved.position_m;
   residual.gradient = across / sine;
   residual.distance_m = residual.gradient.dot(moved.position_m - edge.position_m);
-  residual.variance_m2 = std_m * std_m;
+  residual.variance_m2 = moved.variance_m2 + edge.VarianceAlong(residual.gradient);
   return residual;
 }
 

@@ -167,7 +167,8 @@ Status Tracker<Limits>::Observe(const DepthFrame& frame, Estimate& estimate,
   const DepthReader depth = UsableDepth(frame);
   auto& sampler = scratch_.template Begin<SurfaceSampler<Limits>>();
   sampler.Sample(depth, frame.camera, interior, config_.sampler, samples_, estimate.rejected);
-  EdgeSampler<Limits>::Sample(depth, frame.camera, object_mask_, sampler, config_.sampler, edges_);
+  EdgeSampler<Limits>::Sample(depth, frame.camera, object_mask_, frame.mask, sampler,
+                              config_.sampler, config_.registration.edge_std_px, edges_);
   estimate.samples = static_cast<std::uint16_t>(samples_.size());
   estimate.inverse_depth_std_per_m = sampler.noise_std();
   stopwatch.Mark(Stage::kSample);

@@ -29,7 +29,7 @@ struct Recording {
 
 constexpr std::size_t kFrames = 99;
 constexpr Recording kRecordings[] = {
-    {"DragonGivenMask", "realsense_dragon", "gt", 6, 93, 0.0020},
+    {"DragonGivenMask", "realsense_dragon", "gt", 6, 93, 0.0025},
     {"DragonSloppyMask", "realsense_dragon", "sloppy", 6, 92, 0.0018},
     {"MovedDragonGivenMask", "realsense_dragon_moved", "gt", 0, 97, 0.0025},
     {"MovedDragonSloppyMask", "realsense_dragon_moved", "sloppy", 0, 85, 0.0040},

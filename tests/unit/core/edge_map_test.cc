@@ -10,6 +10,7 @@ namespace {
 
 constexpr int kCapacity = 8;
 constexpr float kMerge_m = 0.004F;
+constexpr float kStd_m = 5e-4F;
 using Map = EdgeMap<kCapacity>;
 
 /// A point of an edge along x whose surface faces the camera.
@@ -20,7 +21,8 @@ EdgePoint PointAt(const Vec3& position_m, const Vec3& direction = Vec3::UnitX(),
   point.direction = direction.normalized();
   point.normal = normal.normalized();
   point.ray = Vec3::UnitZ();
-  point.pixel_m = 1e-3F;
+  point.outward = point.ray.cross(point.direction).normalized();
+  point.variance_m2 = kStd_m * kStd_m;
   return point;
 }
 EdgePoint PointAt(float x_m, float y_m = 0.0F) { return PointAt(Vec3(x_m, y_m, 0.5F)); }
@@ -28,13 +30,14 @@ EdgePoint PointAt(float x_m, float y_m = 0.0F) { return PointAt(Vec3(x_m, y_m, 0
 class EdgeMapTest : public ::testing::Test {
  protected:
   EdgeMapTest() { map_.Start(); }
-  void Insert(const EdgePoint& point) { map_.Insert(point, kMerge_m, counters_); }
+  void Insert(const EdgePoint& point) { map_.Insert(point, kMerge_m, frame_, counters_); }
   [[nodiscard]] const Map::Edge* Nearest(const EdgePoint& point, float radius_m = 1.0F) const {
     return map_.FindNearest(point, radius_m);
   }
 
   Map map_;
   Counters counters_;
+  std::uint32_t frame_ = 0;
 };
 
 TEST_F(EdgeMapTest, EmptyMap_HasNoNearestEdge) {
@@ -56,14 +59,13 @@ TEST_F(EdgeMapTest, PointsCloseToEachOther_AreOneEdge) {
 }
 
 TEST_F(EdgeMapTest, ManyNoisyPoints_AverageToTheTrueEdge) {
-  constexpr float kNoise_m = 5e-4F;
   constexpr int kCount = 2000;
   std::mt19937 random(1);
   std::normal_distribution<float> gaussian;
   for (int i = 0; i < kCount; ++i) {
     // Anywhere along the edge, which says nothing, and with the tangent's sign by chance.
-    const Vec3 position_m(1e-3F * gaussian(random), 0.02F + kNoise_m * gaussian(random),
-                          0.5F + kNoise_m * gaussian(random));
+    const Vec3 position_m(1e-3F * gaussian(random), 0.02F + kStd_m * gaussian(random),
+                          0.5F + kStd_m * gaussian(random));
     const Vec3 direction(i % 2 == 0 ? 1.0F : -1.0F, 0.05F * gaussian(random),
                          0.05F * gaussian(random));
     Insert(PointAt(position_m, direction));
@@ -71,7 +73,7 @@ TEST_F(EdgeMapTest, ManyNoisyPoints_AverageToTheTrueEdge) {
   ASSERT_EQ(map_.size(), 1);
   const Map::Edge& edge = *Nearest(PointAt(0.0F, 0.02F));
   // The weight is bounded: the mean of about the last forty.
-  const float allowed_m = 4.0F * kNoise_m / std::sqrt(40.0F);
+  const float allowed_m = 4.0F * kStd_m / std::sqrt(40.0F);
   EXPECT_NEAR(edge.position_m.y(), 0.02F, allowed_m);
   EXPECT_NEAR(edge.position_m.z(), 0.5F, allowed_m);
   EXPECT_GT(std::abs(edge.direction.x()), 0.999F);
@@ -129,14 +131,81 @@ TEST_F(EdgeMapTest, NearestEdge_IsTheNearestOfThoseInReach) {
   EXPECT_LT(found, 490);
 }
 
-TEST_F(EdgeMapTest, FullMap_RefusesNewEdgesAndCountsThem) {
-  for (int i = 0; i < kCapacity + 5; ++i) Insert(PointAt(0.01F * static_cast<float>(i)));
+TEST_F(EdgeMapTest, DepthThatIsHardlyKnown_ComesFromAnotherView) {
+  EdgePoint point = PointAt(0.0F);
+  point.depth_variance_m2 = 0.01F * 0.01F;
+  Insert(point);
+  const Map::Edge& edge = *Nearest(point);
+  EXPECT_NEAR(std::sqrt(edge.VarianceAlong(Vec3::UnitY())), kStd_m, 1e-5F);
+  EXPECT_NEAR(std::sqrt(edge.VarianceAlong(Vec3::UnitZ())), 0.01F, 1e-4F);
+  // From the side, the edge is seen to be 3 mm nearer than it was taken to be.
+  point.position_m.z() -= 0.003F;
+  point.ray = Vec3::UnitY();
+  point.outward = -Vec3::UnitZ();
+  point.normal = Vec3(0.0F, -0.5F, -1.0F).normalized();
+  Insert(point);
+  ASSERT_EQ(map_.size(), 1);
+  EXPECT_NEAR(edge.position_m.z(), 0.5F - 0.003F, 2e-5F);
+  EXPECT_LT(std::abs(edge.position_m.y()), 1e-5F);
+  EXPECT_LT(std::sqrt(edge.VarianceAlong(Vec3::UnitZ())), 1.01F * kStd_m);
+}
+
+TEST_F(EdgeMapTest, PointWithUncertainDepth_IsFoundFartherOff) {
+  Insert(PointAt(0.0F));
+  EdgePoint behind = PointAt(Vec3(0.0F, 0.0F, 0.51F));
+  Insert(behind);
+  EXPECT_EQ(map_.size(), 2);
+  map_.Start();
+  Insert(PointAt(0.0F));
+  behind.depth_variance_m2 = 0.005F * 0.005F;
+  Insert(behind);
+  EXPECT_EQ(map_.size(), 1);
+}
+
+/// A series of edges far from each other.
+EdgePoint Nth(int i) { return PointAt(0.01F * static_cast<float>(i)); }
+
+TEST_F(EdgeMapTest, FullMap_ForgetsWhatWasSeenOnceFirst) {
+  for (int i = 0; i < kCapacity; ++i) Insert(Nth(i));
+  // The first half is seen again and again, though not lately.
+  for (frame_ = 1; frame_ < 4; ++frame_) {
+    for (int i = 0; i < kCapacity / 2; ++i) Insert(Nth(i));
+  }
+  constexpr int kMore = 100;
+  for (int i = kCapacity; i < kCapacity + kMore; ++i) {
+    ++frame_;
+    Insert(Nth(i));
+  }
+  EXPECT_EQ(map_.size(), kCapacity);
+  EXPECT_EQ(counters_.edges_refused, 0U);
+  for (int i = 0; i < kCapacity / 2; ++i) EXPECT_NE(Nearest(Nth(i), 0.001F), nullptr) << i;
+  for (int i = kCapacity + kMore - kCapacity / 2; i < kCapacity + kMore; ++i)
+    EXPECT_NE(Nearest(Nth(i), 0.001F), nullptr) << "the newest";
+}
+
+TEST_F(EdgeMapTest, MapFullOfKnownEdges_ForgetsWhatWasNotSeenForTheLongestTime) {
+  for (frame_ = 0; frame_ < 5; ++frame_) {
+    for (int i = 0; i < kCapacity; ++i) Insert(Nth(i));
+  }
+  for (int i = 0; i < kCapacity; ++i) {
+    ++frame_;
+    if (i != 3) Insert(Nth(i));
+  }
+  ++frame_;
+  Insert(Nth(50));
+  EXPECT_EQ(counters_.edges_refused, 0U);
+  EXPECT_EQ(Nearest(Nth(3), 0.001F), nullptr);
+  for (const int i : {0, 1, 2, 4, 5, 6, 7, 50}) EXPECT_NE(Nearest(Nth(i), 0.001F), nullptr) << i;
+}
+
+TEST_F(EdgeMapTest, MapFullOfThisFramesEdges_RefusesNewOnesAndCountsThem) {
+  for (int i = 0; i < kCapacity + 5; ++i) Insert(Nth(i));
   EXPECT_EQ(map_.size(), kCapacity);
   EXPECT_EQ(counters_.edges_refused, 5U);
-  // Those that are known can still be averaged into.
+  // Those that are known can still be fused with.
   Insert(PointAt(0.0F, 0.002F));
   EXPECT_EQ(counters_.edges_refused, 5U);
-  EXPECT_NEAR(Nearest(PointAt(0.0F))->position_m.y(), 0.001F, 1e-6F);
+  EXPECT_NEAR(Nearest(PointAt(0.0F))->position_m.y(), 0.001F, 1e-5F);
   map_.Start();
   EXPECT_EQ(map_.size(), 0);
 }

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <initializer_list>
 #include <memory>
 #include <vector>
@@ -18,6 +20,11 @@ constexpr int kWidth_px = 240;
 constexpr int kHeight_px = 180;
 const PinholeCamera kCamera{220.0F, 220.0F, 119.5F, 89.5F};
 constexpr float kWall_m = 1.5F;
+constexpr float kLeastStd_px = 0.3F;
+
+[[nodiscard]] float PixelWidth(const EdgePoint& edge) {
+  return edge.position_m.z() / kCamera.fx_px;
+}
 
 /// A flat rectangle somewhere in front of the camera: its outline is known exactly.
 struct Plate {
@@ -25,10 +32,14 @@ struct Plate {
   Mat3 rotation;  ///< Columns: along its sides, and its normal.
   Vec2 half_m;
 
-  /// @return Depth along a ray with z = 1; 0 if it passes by.
-  [[nodiscard]] float DepthAlong(const Vec3& ray) const {
+  /// @return Depth of the plate's plane along a ray with z = 1.
+  [[nodiscard]] float PlaneAlong(const Vec3& ray) const {
     const Vec3 normal = rotation.col(2);
-    const float depth_m = normal.dot(center_m) / normal.dot(ray);
+    return normal.dot(center_m) / normal.dot(ray);
+  }
+  /// @return The same; 0 if the ray passes the plate by.
+  [[nodiscard]] float DepthAlong(const Vec3& ray) const {
+    const float depth_m = PlaneAlong(ray);
     const Vec2 place_m = PlaceOf(Vec3(depth_m * ray));
     return (place_m.cwiseAbs().array() <= half_m.array()).all() ? depth_m : 0.0F;
   }
@@ -68,6 +79,34 @@ class Scene {
       for (int u = u_begin; u < u_end; ++u) At(u, v) = depth_m;
     }
   }
+  /// A user's mask that shows the plate exactly.
+  void GiveMask() {
+    exact_.assign(depth_m_.size(), 0);
+    for (int v = 0; v < kHeight_px; ++v) {
+      for (int u = 0; u < kWidth_px; ++u)
+        exact_[static_cast<std::size_t>(v * kWidth_px + u)] = plate_.DepthAlong(Ray(u, v)) > 0.0F;
+    }
+    given_ = {exact_.data(), kWidth_px, kHeight_px, kWidth_px};
+  }
+  /// The mask does not show the columns [u_begin, u_end).
+  void CutMask(int u_begin, int u_end) {
+    for (int v = 0; v < kHeight_px; ++v) {
+      for (int u = u_begin; u < u_end; ++u) exact_[static_cast<std::size_t>(v * kWidth_px + u)] = 0;
+    }
+  }
+  /// What a sensor that matches windows of pixels does: the plate's depth goes on beyond its right
+  /// side, in some rows more than in others.
+  void Fatten(int most_px) {
+    for (int v = 0; v < kHeight_px; ++v) {
+      int end = kWidth_px;
+      while (end > 0 && plate_.DepthAlong(Ray(end - 1, v)) <= 0.0F) --end;
+      const int fat_px = (v / 9 * 7) % (most_px + 1);
+      for (int u = end; u < std::min(end + fat_px, kWidth_px) && end > 0; ++u) {
+        At(u, v) = plate_.PlaneAlong(Ray(u, v));
+        mask_->row(v).SetRun(u, u + 1);
+      }
+    }
+  }
   const Edges& Find() {
     for (int v = 0; v < kHeight_px; ++v) {
       for (int u = 0; u < kWidth_px; ++u) {
@@ -82,7 +121,8 @@ class Scene {
     const ErodedMask interior(*mask_, config_.border_px);
     Counters counters;
     sampler_->Sample(depth, kCamera, interior, config_, *samples_, counters);
-    EdgeSampler<profiles::Micro>::Sample(depth, kCamera, *mask_, *sampler_, config_, edges_);
+    EdgeSampler<profiles::Micro>::Sample(depth, kCamera, *mask_, given_, *sampler_, config_,
+                                         kLeastStd_px, edges_);
     return edges_;
   }
   /// All edges are where the outline is.
@@ -92,11 +132,15 @@ class Scene {
     for (const EdgePoint& edge : edges_) {
       EXPECT_NEAR(plate_.rotation.col(2).dot(edge.position_m - plate_.center_m), 0.0F, 2e-4F);
       EXPECT_NEAR(edge.direction.norm(), 1.0F, 1e-4F);
-      EXPECT_NEAR(edge.pixel_m, edge.position_m.z() / kCamera.fx_px, 1e-6F);
+      const float std_px = std::sqrt(edge.variance_m2) / PixelWidth(edge);
+      EXPECT_GT(std_px, 0.999F * kLeastStd_px);
+      EXPECT_LT(std_px, 1.3F * kLeastStd_px);
+      EXPECT_LT(std::abs(edge.outward.dot(edge.ray)), 1e-4F);
+      EXPECT_GT(edge.outward.dot(edge.position_m - plate_.center_m), 0.0F);
       EXPECT_GT(std::abs(edge.normal.dot(plate_.rotation.col(2))), 0.9999F);
       EXPECT_LT(edge.normal.dot(edge.ray), 0.0F) << "towards the camera";
       EXPECT_LT((edge.ray - edge.position_m.normalized()).norm(), 1e-5F);
-      const float off_px = std::abs(plate_.BeyondOutline(edge.position_m)) / edge.pixel_m;
+      const float off_px = std::abs(plate_.BeyondOutline(edge.position_m)) / PixelWidth(edge);
       const Vec2 left_m = plate_.half_m - plate_.PlaceOf(edge.position_m).cwiseAbs();
       if (IsAtCorner(edge, left_m, cuts_px)) {
         // A corner within the disc to which the straight line is fitted.
@@ -128,11 +172,13 @@ class Scene {
     for (const float cut_px : cuts_px) {
       if (std::abs(u_px - cut_px) < kDisc_px) return true;
     }
-    return left_m.maxCoeff() < kDisc_px * edge.pixel_m;
+    return left_m.maxCoeff() < kDisc_px * PixelWidth(edge);
   }
 
   Plate plate_;
   std::vector<float> depth_m_;
+  std::vector<std::uint8_t> exact_;
+  MaskView given_;
   SamplerConfig config_;
   std::unique_ptr<PixelMask<kWidth_px, kHeight_px>> mask_ =
       std::make_unique<PixelMask<kWidth_px, kHeight_px>>();
@@ -178,7 +224,7 @@ TEST(EdgeSampler, PointsOfAllSides_AreOffByLessThanAQuarterPixelOnAverage) {
   float sum_px = 0.0F;
   float absolute_sum_px = 0.0F;
   for (const EdgePoint& edge : edges) {
-    const float off_px = plate.BeyondOutline(edge.position_m) / edge.pixel_m;
+    const float off_px = plate.BeyondOutline(edge.position_m) / PixelWidth(edge);
     sum_px += off_px;
     absolute_sum_px += std::abs(off_px);
   }
@@ -204,7 +250,41 @@ TEST(EdgeSampler, BehindAnOccluder_NoEdgeIsSeen) {
         std::abs(std::abs(plate.PlaceOf(edge.position_m).y()) - plate.half_m.y());
     const bool beside_post = std::abs(u_px - kPost_px) < 3.0F || std::abs(u_px - kPost_px - 19) < 3;
     if (beside_post) {
-      EXPECT_LT(to_side_m, 2.0F * edge.pixel_m) << "the post's edge, not the plate's";
+      EXPECT_LT(to_side_m, 2.0F * PixelWidth(edge)) << "the post's edge, not the plate's";
+    }
+  }
+}
+
+TEST(EdgeSampler, ExactMaskOverFattenedDepth_SaysWhereThePlateEnds) {
+  const Plate plate = TurnedPlate(Vec3(0.2F, -0.2F, 0.0F));
+  float std_px[2] = {};
+  for (const bool masked : {false, true}) {
+    Scene scene(plate);
+    scene.Fatten(4);
+    if (masked) scene.GiveMask();
+    const auto& edges = scene.Find();
+    ASSERT_GT(edges.size(), 40);
+    std_px[masked ? 1 : 0] = std::sqrt(edges[0].variance_m2) / PixelWidth(edges[0]);
+    if (!masked) continue;
+    scene.ExpectOnOutline();
+    EXPECT_EQ(SidesFound(plate, edges), 4);
+  }
+  EXPECT_GE(std_px[0], std_px[1]) << "the depth's outline is ragged";
+}
+
+TEST(EdgeSampler, ThinPostBesideAnExactMask_IsNoBackground) {
+  const Plate plate = TurnedPlate(Vec3::Zero());
+  Scene scene(plate);
+  constexpr int kPost_px = 130;
+  scene.GiveMask();
+  scene.CutMask(kPost_px, kPost_px + 5);
+  scene.Put(kPost_px, kPost_px + 5, 0.4F);
+  for (const EdgePoint& edge : scene.Find()) {
+    const float to_side_m =
+        std::abs(std::abs(plate.PlaceOf(edge.position_m).y()) - plate.half_m.y());
+    const float u_px = kCamera.Project(edge.position_m).x();
+    if (std::abs(u_px - kPost_px - 2.0F) < 5.0F) {
+      EXPECT_LT(to_side_m, 2.0F * PixelWidth(edge));
     }
   }
 }

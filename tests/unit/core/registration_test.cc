@@ -387,9 +387,12 @@ TEST(Registration, JacobianOfAnEdge_IsTheDerivativeOfTheRaysDistanceFromIt) {
     model_edge.position_m = 0.05F * direction();
     model_edge.direction = direction();
     model_edge.normal = model_edge.direction.unitOrthogonal();
+    model_edge.ray = -model_edge.normal;
+    model_edge.outward = model_edge.ray.cross(model_edge.direction);
+    model_edge.variance_m2 = 1e-7F;
     seen.edges().Start();
     Counters counters;
-    seen.edges().Insert(model_edge, 0.004F, counters);
+    seen.edges().Insert(model_edge, 0.004F, 0, counters);
     // Seen from the camera at the origin of its frame.
     const PoseCameraFromObject T_co = seen.T_oc().Inverse();
     EdgePoint observed;
@@ -397,7 +400,8 @@ TEST(Registration, JacobianOfAnEdge_IsTheDerivativeOfTheRaysDistanceFromIt) {
     observed.ray = observed.position_m.normalized();
     observed.direction = T_co.rotation() * model_edge.direction;
     observed.normal = T_co.rotation() * model_edge.normal;
-    observed.pixel_m = 0.001F;
+    observed.outward = observed.ray.cross(observed.direction).normalized();
+    observed.variance_m2 = 1e-7F;
     const Vec3 e_m = model_edge.position_m;
     const Vec3 d = model_edge.direction;
     if (std::abs(d.dot(seen.T_oc().rotation() * observed.ray)) > 0.9F) continue;

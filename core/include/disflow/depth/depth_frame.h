@@ -53,6 +53,11 @@ struct MaskView {
   [[nodiscard]] const std::uint8_t* row(int v) const noexcept {
     return data + static_cast<std::ptrdiff_t>(v) * stride_bytes;
   }
+  /// Whether a pixel shows the object; none outside the image does. @pre given()
+  [[nodiscard]] bool Test(int u, int v) const noexcept {
+    if (u < 0 || v < 0 || u >= width_px || v >= height_px) return false;
+    return label == 0 ? row(v)[u] != 0 : row(v)[u] == label;
+  }
 };
 
 /// One depth image with all that is known about it.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "disflow/config.h"
+#include "disflow/depth/object_outline.h"
 #include "disflow/depth/surface_sample.h"
 #include "disflow/depth/surface_sampler.h"
 
@@ -19,94 +20,40 @@ class EdgeSampler {
   using Edges = FixedVector<EdgePoint, Limits::kMaxEdgePoints>;
 
   /// @param object All of the object's pixels, not eroded.
+  /// @param given The user's mask, if there is one.
+  /// @param least_std_px Noise of the best outline.
   template <class Mask>
   static void Sample(const DepthReader& depth, const PinholeCamera& camera, const Mask& object,
-                     const SurfaceSampler<Limits>& surfaces, const SamplerConfig& config,
-                     Edges& edges) noexcept {
+                     const MaskView& given, const SurfaceSampler<Limits>& surfaces,
+                     const SamplerConfig& config, float least_std_px, Edges& edges) noexcept {
     edges.clear();
-    // Two passes: count the outline, then take every k-th of its points, so that the whole outline
-    // is represented.
-    int outline = 0;
-    ForEachOutlinePixel(object, [&outline](int, int) { ++outline; });
-    // Steps of the golden ratio: a regular stride would, row by row, meet the left outline alone.
-    constexpr float kGoldenRatio = 0.61803399F;
-    const float share = static_cast<float>(Limits::kMaxEdgePoints) /
-                        static_cast<float>(std::max(outline, Limits::kMaxEdgePoints));
-    float phase = 0.0F;
-    ForEachOutlinePixel(object, [&](int u, int v) {
-      phase += kGoldenRatio;
-      phase -= std::floor(phase);
-      if (phase >= share) return;
+    Outline outline;
+    outline.Find(object, given);
+    for (const OutlinePoint& point : outline.points()) {
       EdgePoint edge;
-      if (MakeEdge(depth, camera, object, surfaces, config, u, v, edge))
+      if (MakeEdge(depth, camera, outline, point, surfaces, config, edge))
         (void)edges.push_back(edge);
-    });
+    }
+    const float std_px = std::fmax(outline.std_px(), least_std_px);
+    for (EdgePoint& edge : edges) edge.variance_m2 *= std_px * std_px;
   }
 
  private:
-  static constexpr int kDiskRadiusPx = 4;
+  using Outline = ObjectOutline<Limits::kMaxEdgePoints>;
+
   static constexpr int kProbePx = 6;
   static constexpr int kShadowPx = 64;
   static constexpr int kBackgroundPixels = 3;
+  static constexpr int kFlyingPx = 2;
+  static constexpr int kMatchingWindowPx = 8;
 
-  template <class Mask, class Visitor>
-  static void ForEachOutlinePixel(const Mask& object, Visitor&& visit) noexcept {
-    for (int v = object.box().v_min; v < object.box().v_max; ++v)
-      object.ForEachOutlineInRow(v, [&](int u) { visit(u, v); });
-  }
-
-  /// The outline near a pixel as a straight line: inward normal, and signed distance of the pixel's
-  /// centre from it.
-  struct OutlineFit {
-    bool straight = false;
-    Vec2 inward = Vec2::Zero();
-    float distance_px = 0.0F;
-  };
-  template <class Mask>
-  [[nodiscard]] static OutlineFit FitOutline(const Mask& object, int u, int v) noexcept {
-    OutlineFit fit;
-    Vec2 sum = Vec2::Zero();
-    int inside = 0;
-    int total = 0;
-    for (int dv = -kDiskRadiusPx; dv <= kDiskRadiusPx; ++dv) {
-      for (int du = -kDiskRadiusPx; du <= kDiskRadiusPx; ++du) {
-        if (du * du + dv * dv > kDiskRadiusPx * kDiskRadiusPx + kDiskRadiusPx) continue;
-        ++total;
-        if (!object.Test(u + du, v + dv)) continue;
-        ++inside;
-        sum += Vec2(static_cast<float>(du), static_cast<float>(dv));
-      }
-    }
-    const float norm = sum.norm();
-    const auto area = static_cast<float>(total);
-    const float radius = std::sqrt(area / 3.14159265F);
-    // A half disk's centroid is 4 r / (3 pi) from the centre; at corners and thin parts it is
-    // nearer.
-    const float half_moment = 0.5F * area * 0.4244F * radius;
-    const float share = static_cast<float>(inside) / area;
-    if (norm < 0.85F * half_moment || share < 0.35F || share > 0.72F) return fit;
-    fit.straight = true;
-    fit.inward = sum / norm;
-    // To first order the covered area grows by the disk's diameter per pixel of distance.
-    fit.distance_px = (share - 0.5F) * area / (2.0F * radius);
-    return fit;
-  }
-
-  template <class Mask>
   [[nodiscard]] static bool MakeEdge(const DepthReader& depth, const PinholeCamera& camera,
-                                     const Mask& object, const SurfaceSampler<Limits>& surfaces,
-                                     const SamplerConfig& config, int u, int v,
-                                     EdgePoint& edge) noexcept {
-    const OutlineFit fit = FitOutline(object, u, v);
-    if (!fit.straight) return false;
-    const auto at = [&](float inward_px) {
-      return Vec2(static_cast<float>(u) + inward_px * fit.inward.x(),
-                  static_cast<float>(v) + inward_px * fit.inward.y());
-    };
+                                     const Outline& outline, const OutlinePoint& point,
+                                     const SurfaceSampler<Limits>& surfaces,
+                                     const SamplerConfig& config, EdgePoint& edge) noexcept {
     const auto surface_at = [&](float inward_px) {
-      const Vec2 p = at(inward_px);
-      return surfaces.SurfaceAt(static_cast<int>(std::lround(p.x())),
-                                static_cast<int>(std::lround(p.y())));
+      const PixelAt p(point.At(inward_px));
+      return surfaces.SurfaceAt(p.u, p.v);
     };
     const auto step = static_cast<float>(std::max(surfaces.block_px(), 2));
     const float first_px = static_cast<float>(config.border_px) + 0.75F * step;
@@ -116,48 +63,58 @@ class EdgeSampler {
     if (!near.valid || !inner.valid || near.cos_incidence < config.edge_min_cos_incidence)
       return false;
     const float tilt_variance = near.normal_variance + inner.normal_variance;
-    const float allowed_tilt = std::min(0.3F, 0.08F + 2.0F * std::sqrt(tilt_variance));
+    const float allowed_tilt = std::min(0.3F, 0.08F + std::sqrt(tilt_variance));
     if ((near.normal - inner.normal).norm() > allowed_tilt) return false;
 
-    const Vec2 outline = at(-fit.distance_px);
-    const Vec3 ray = camera.Ray(outline.x(), outline.y());
+    const Vec2 place = point.At(-point.distance_px);
+    const Vec3 ray = camera.Ray(place.x(), place.y());
     const float facing = near.normal.dot(ray);
     const float depth_m = near.offset_m / facing;
-    if (!(depth_m > 0.0F) || !EndsBeforeBackground(depth, config, at, depth_m)) return false;
-    if (!ReachesOutline(depth, camera, at, fit.inward, near, surfaces.noise_std())) return false;
+    // Beside an exact mask the depth goes on as far as windows are matched.
+    const int rim_px = outline.is_masks() ? kMatchingWindowPx : kFlyingPx;
+    if (!(depth_m > 0.0F) || !EndsBeforeBackground(depth, config, point, rim_px, depth_m))
+      return false;
+    // Where the depth's outline is ragged, its last pixels say nothing.
+    const int ragged_px = static_cast<int>(std::lround(2.0F * outline.depth_std_px()));
+    if (!ReachesOutline(depth, camera, point, ragged_px, near, surfaces.noise_std())) return false;
 
-    const Vec3 along = camera.Ray(outline.x() - fit.inward.y(), outline.y() + fit.inward.x());
+    const Vec3 along = camera.Ray(place.x() + point.along().x(), place.y() + point.along().y());
+    const Vec3 inside = camera.Ray(place.x() + point.inward.x(), place.y() + point.inward.y());
     edge.position_m = depth_m * ray;
     edge.normal = near.normal;
     edge.ray = ray.normalized();
     // The edge lies in the surface and in the plane through the camera and the outline's tangent.
     edge.direction = near.normal.cross(ray.cross(along)).normalized();
-    edge.pixel_m = depth_m / camera.fx_px;
+    edge.outward = edge.ray.cross(edge.direction).normalized();
+    if (edge.outward.dot(inside) > 0.0F) edge.outward = -edge.outward;
+    const float pixel_m = depth_m / camera.fx_px;
+    edge.variance_m2 = pixel_m * pixel_m;
+    // The plane is known at its block, and tilts from there to the outline.
+    const float along_normal_m2 =
+        near.variance_m2 + near.normal_variance * (edge.position_m - near.position_m).squaredNorm();
+    edge.depth_variance_m2 = along_normal_m2 * ray.squaredNorm() / (facing * facing);
     return edge.direction.allFinite();
   }
 
   /// The pixels up to the outline lie on the surface: no sliver of another face, seen at a flat
   /// angle, is in between. Judged, row by row along the outline, by the deviation that a third of
   /// the pixels keep below: noise and flying pixels disturb it less than single pixels.
-  template <class At>
   [[nodiscard]] static bool ReachesOutline(const DepthReader& depth, const PinholeCamera& camera,
-                                           const At& at, const Vec2& inward,
+                                           const OutlinePoint& point, int first_px,
                                            const BlockPlane& surface, float noise_std) noexcept {
     constexpr int kRows = 4;
     constexpr int kHalfLength = 3;
     constexpr float kPlaneTolerance = 0.001F;  // share of the depth
     const float tolerance = 0.9F * noise_std + kPlaneTolerance / std::abs(surface.offset_m);
-    const Vec2 along(-inward.y(), inward.x());
     int agreeing = 0;
     for (int row = 0; row < kRows; ++row) {
       FixedVector<float, 2 * kHalfLength + 1> deviations;
       for (int i = -kHalfLength; i <= kHalfLength; ++i) {
-        const Vec2 p = at(static_cast<float>(row)) + static_cast<float>(i) * along;
-        const auto u = static_cast<int>(std::lround(p.x()));
-        const auto v = static_cast<int>(std::lround(p.y()));
-        const float depth_m = depth.AtOrZero(u, v);
+        const PixelAt p(Vec2(point.At(static_cast<float>(first_px + row)) +
+                             static_cast<float>(i) * point.along()));
+        const float depth_m = depth.AtOrZero(p.u, p.v);
         if (depth_m <= 0.0F) continue;
-        const Vec3 ray = camera.Ray(static_cast<float>(u), static_cast<float>(v));
+        const Vec3 ray = camera.Ray(static_cast<float>(p.u), static_cast<float>(p.v));
         (void)deviations.push_back(
             std::abs(1.0F / depth_m - surface.normal.dot(ray) / surface.offset_m));
       }
@@ -172,21 +129,22 @@ class EdgeSampler {
 
   /// What is seen outside of the outline is farther away. Next to it there may be nothing: a stereo
   /// sensor has no depth where its second view is occluded by the object itself.
-  template <class At>
+  /// @param rim_px Pixels next to the outline that may show the object.
   [[nodiscard]] static bool EndsBeforeBackground(const DepthReader& depth,
-                                                 const SamplerConfig& config, const At& at,
+                                                 const SamplerConfig& config,
+                                                 const OutlinePoint& point, int rim_px,
                                                  float depth_m) noexcept {
+    const float gap_m = config.edge_background_gap_m;
     int background = 0;
-    for (int i = 2; i <= kShadowPx && background < kBackgroundPixels;
+    for (int i = kFlyingPx; i <= kShadowPx && background < kBackgroundPixels;
          i += i < kProbePx || background > 0 ? 1 : 2) {
-      const Vec2 p = at(-static_cast<float>(i));
-      const float outside_m = depth.AtOrZero(static_cast<int>(std::lround(p.x())),
-                                             static_cast<int>(std::lround(p.y())));
+      const PixelAt p(point.At(-static_cast<float>(i)));
+      const float outside_m = depth.AtOrZero(p.u, p.v);
       if (outside_m <= 0.0F) continue;
-      if (outside_m > depth_m + config.edge_background_gap_m) {
+      if (outside_m > depth_m + gap_m) {
         ++background;
-      } else if (i > 2) {
-        return false;  // the first pixel may be a flying one
+      } else if (i > rim_px || (i > kFlyingPx && outside_m < depth_m - gap_m)) {
+        return false;
       }
     }
     return background > 0;

@@ -23,7 +23,10 @@ struct EdgePoint {
   Vec3 direction = Vec3::Zero();  ///< Unit tangent of the edge; its sign has no meaning.
   Vec3 normal = Vec3::Zero();     ///< Of the surface that ends here.
   Vec3 ray = Vec3::Zero();        ///< Unit viewing direction.
-  float pixel_m = 0.0F;           ///< Width of one pixel at this depth.
+  /// Unit vector away from the object, across ray and edge: all that the image shows of the place.
+  Vec3 outward = Vec3::Zero();
+  float variance_m2 = 0.0F;        ///< Of the position along `outward`.
+  float depth_variance_m2 = 0.0F;  ///< Of the position along the ray.
 };
 
 /// An edge of the camera frame in the object frame.

@@ -22,7 +22,9 @@ namespace disflow {
 struct BlockPlane {
   bool valid = false;
   Vec3 normal = Vec3::Zero();
-  float offset_m = 0.0F;  ///< normal . x = offset on the plane.
+  float offset_m = 0.0F;           ///< normal . x = offset on the plane.
+  Vec3 position_m = Vec3::Zero();  ///< Where the block lies on it.
+  float variance_m2 = 0.0F;        ///< Of that position along the normal.
   float normal_variance = 0.0F;
   float cos_incidence = 0.0F;
 };
@@ -62,7 +64,13 @@ class SurfaceSampler {
     const std::uint16_t sample = grid_.SampleAt(u, v);
     if (sample == Grid::kNoSample) return {};
     const SurfaceSample& s = (*samples_)[sample];
-    return {true, s.normal, s.normal.dot(s.position_m), s.normal_variance, s.cos_incidence};
+    return {true,
+            s.normal,
+            s.normal.dot(s.position_m),
+            s.position_m,
+            s.fused_variance_m2,
+            s.normal_variance,
+            s.cos_incidence};
   }
 
   [[nodiscard]] float noise_std() const noexcept { return noise_std_; }

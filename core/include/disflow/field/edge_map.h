@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <span>
 
 #include "disflow/depth/surface_sample.h"
@@ -9,22 +10,43 @@
 
 namespace disflow {
 
-/// A sharp edge of the model: a running average of the occluding-edge points seen on it. Object
-/// frame.
+/// A sharp edge of the model: what is known from the occluding-edge points seen on it. A view knows
+/// the place across its ray to a part of a pixel, along the ray only as well as the depth beside
+/// the edge. Object frame.
 struct ModelEdge {
   Vec3 position_m;
   Vec3 direction;
-  Vec3 normal;
-  float weight;  ///< Observations, bounded so that an edge can still move.
+  Vec3 normal;                  ///< Of the surface that ends here.
+  std::uint32_t last_seen;      ///< Number of the frame.
+  float weight;                 ///< Observations, bounded so that an edge can still move.
+  Mat<float, 2, 2> covariance;  ///< Of the position along the columns of Across() [m^2].
+
+  /// Two unit vectors across the edge.
+  [[nodiscard]] Mat<float, 3, 2> Across() const noexcept;
+  /// Variance of the position along a unit vector across the edge [m^2].
+  [[nodiscard]] float VarianceAlong(const Vec3& unit) const noexcept;
 };
 
-/// The nearest edge with the same direction and side as a point, within radius_m.
+/// The edge that a first point makes.
+[[nodiscard]] ModelEdge MakeModelEdge(const EdgePoint& point, std::uint32_t frame) noexcept;
+
+/// The nearest edge with the same direction and side as a point, within radius_m. Directions are
+/// compared as the image shows them: how an edge runs in depth a noisy sensor hardly sees.
 /// @return Its index, or -1.
 [[nodiscard]] int FindNearestEdge(std::span<const ModelEdge> edges, const EdgePoint& point,
                                   float radius_m) noexcept;
 
-/// Averages a point into an edge.
-void MergeIntoEdge(const EdgePoint& point, ModelEdge& edge) noexcept;
+/// Fuses a point into an edge.
+void MergeIntoEdge(const EdgePoint& point, std::uint32_t frame, ModelEdge& edge) noexcept;
+
+/// How far a point may be from the edge that it is a point of, given how well its depth is known.
+[[nodiscard]] float MergeRadius(const EdgePoint& point, float merge_radius_m) noexcept;
+
+/// Which edge makes room for a new one: of those seen once or twice, or else of all, the one that
+/// was not seen for the longest time.
+/// @param frame The present one; what was seen in it stays.
+/// @return Its index, or -1.
+[[nodiscard]] int FindForgettable(std::span<const ModelEdge> edges, std::uint32_t frame) noexcept;
 
 /// The object's sharp edges. Object frame.
 template <int kMaxEdges>
@@ -37,23 +59,32 @@ class EdgeMap {
 
   /// The nearest edge with the same direction and side, within radius_m; or null.
   [[nodiscard]] const Edge* FindNearest(const EdgePoint& point, float radius_m) const noexcept {
-    const int nearest = Find(point, radius_m);
+    const int nearest = FindNearestEdge(all(), point, radius_m);
     return nearest < 0 ? nullptr : &edges_[nearest];
   }
 
-  /// Averages a point into the edge near it, or stores it while there is room.
-  void Insert(const EdgePoint& point, float merge_radius_m, Counters& counters) noexcept {
-    const int nearest = Find(point, merge_radius_m);
+  /// Fuses a point into the edge near it, or stores it, if the map is full in place of another.
+  /// @param frame Number of the frame, not decreasing.
+  void Insert(const EdgePoint& point, float merge_radius_m, std::uint32_t frame,
+              Counters& counters) noexcept {
+    const int nearest = FindNearestEdge(all(), point, MergeRadius(point, merge_radius_m));
     if (nearest >= 0) {
-      MergeIntoEdge(point, edges_[nearest]);
-    } else if (!edges_.push_back({point.position_m, point.direction, point.normal, 1.0F})) {
+      MergeIntoEdge(point, frame, edges_[nearest]);
+      return;
+    }
+    const Edge edge = MakeModelEdge(point, frame);
+    if (edges_.push_back(edge)) return;
+    const int forgettable = FindForgettable(all(), frame);
+    if (forgettable < 0) {
       ++counters.edges_refused;
+    } else {
+      edges_[forgettable] = edge;
     }
   }
 
  private:
-  [[nodiscard]] int Find(const EdgePoint& point, float radius_m) const noexcept {
-    return FindNearestEdge({edges_.begin(), edges_.end()}, point, radius_m);
+  [[nodiscard]] std::span<const Edge> all() const noexcept {
+    return {edges_.begin(), edges_.end()};
   }
 
   FixedVector<Edge, kMaxEdges> edges_;

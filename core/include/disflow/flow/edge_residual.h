@@ -14,10 +14,8 @@ namespace disflow {
 /// The residual of an occluding edge against an edge of the model, object frame. The outline in the
 /// image moves only across the ray and across the edge, which is the gradient's direction.
 /// @param moved The observed edge in the object frame.
-/// @param std_px Noise of the outline in the image.
 /// @return Unmatched when the edge points at the camera.
-[[nodiscard]] Residual EdgeResidualOf(const EdgePoint& moved, const ModelEdge& edge,
-                                      float std_px) noexcept;
+[[nodiscard]] Residual EdgeResidualOf(const EdgePoint& moved, const ModelEdge& edge) noexcept;
 
 /// Residuals of a frame's occluding edges: their distance from the model's edges as the image shows
 /// it. An addition to the paper; they hold the pose along flat faces. A kind of residual as
@@ -41,7 +39,7 @@ class EdgeResiduals {
     if (reuse && known == nullptr) return {};
     const EdgePoint moved = T_oc * edges_[i];
     if (!reuse) known = model_.FindNearest(moved, config_.match_radius_m + scale_m);
-    return known == nullptr ? Residual{} : EdgeResidualOf(moved, *known, config_.edge_std_px);
+    return known == nullptr ? Residual{} : EdgeResidualOf(moved, *known);
   }
 
  private:

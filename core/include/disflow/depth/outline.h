@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "disflow/depth/depth_frame.h"
+#include "disflow/memory/fixed_vector.h"
+#include "disflow/types.h"
+
+namespace disflow {
+
+/// The outline of a mask near one of its pixels, as a straight line.
+struct OutlinePoint {
+  Vec2 pixel = Vec2::Zero();   ///< (u, v) of the pixel's centre.
+  Vec2 inward = Vec2::Zero();  ///< Unit vector across the line.
+  float distance_px = 0.0F;    ///< Of the pixel's centre from the line, inwards.
+
+  /// So far inwards of the pixel.
+  [[nodiscard]] Vec2 At(float inward_px) const noexcept { return pixel + inward_px * inward; }
+  [[nodiscard]] Vec2 along() const noexcept { return {-inward.y(), inward.x()}; }
+};
+
+/// Pixel nearest to a place in the image.
+struct PixelAt {
+  explicit PixelAt(const Vec2& px) noexcept
+      : u(static_cast<int>(std::lround(px.x()))), v(static_cast<int>(std::lround(px.y()))) {}
+  int u;
+  int v;
+};
+
+/// Half the width of the outline that a straight line is fitted to.
+inline constexpr int kOutlineDiskPx = 4;
+
+/// Fits a line to the mask's outline within a disk.
+/// @param mask Has Test(u, v).
+/// @return false at corners and thin parts; `point` is undefined then.
+template <class Mask>
+[[nodiscard]] bool FitOutline(const Mask& mask, int u, int v, OutlinePoint& point) noexcept {
+  constexpr int kRadius = kOutlineDiskPx;
+  Vec2 sum = Vec2::Zero();
+  int inside = 0;
+  int total = 0;
+  for (int dv = -kRadius; dv <= kRadius; ++dv) {
+    for (int du = -kRadius; du <= kRadius; ++du) {
+      if (du * du + dv * dv > kRadius * kRadius + kRadius) continue;
+      ++total;
+      if (!mask.Test(u + du, v + dv)) continue;
+      ++inside;
+      sum += Vec2(static_cast<float>(du), static_cast<float>(dv));
+    }
+  }
+  const float norm = sum.norm();
+  const auto area = static_cast<float>(total);
+  const float radius = std::sqrt(area / 3.14159265F);
+  // A half disk's centroid is 4 r / (3 pi) from the centre; at corners and thin parts it is nearer.
+  const float half_moment = 0.5F * area * 0.4244F * radius;
+  const float share = static_cast<float>(inside) / area;
+  if (norm < 0.85F * half_moment || share < 0.35F || share > 0.72F) return false;
+  point.pixel = Vec2(static_cast<float>(u), static_cast<float>(v));
+  point.inward = sum / norm;
+  // To first order the covered area grows by the disk's diameter per pixel of distance.
+  point.distance_px = (share - 0.5F) * area / (2.0F * radius);
+  return true;
+}
+
+/// Where a mask begins, from outside inwards.
+/// @param offset_px Of the first pixel inside, inwards of `place`.
+/// @return false if it does not begin within reach_px of a place.
+template <class Mask>
+[[nodiscard]] bool FindOutline(const Mask& mask, const Vec2& place, const Vec2& inward,
+                               int reach_px, int& offset_px) noexcept {
+  const auto inside = [&](int step) {
+    const PixelAt p(Vec2(place + static_cast<float>(step) * inward));
+    return mask.Test(p.u, p.v);
+  };
+  offset_px = -reach_px;
+  while (offset_px <= reach_px && !inside(offset_px)) ++offset_px;
+  return offset_px > -reach_px && offset_px <= reach_px;
+}
+
+/// How ragged a mask's outline is, at the scale at which lines are fitted to it: from third
+/// differences of its place along itself, which straight and evenly bent outlines do not have.
+template <int kMaxPoints>
+class OutlineNoise {
+ public:
+  template <class Mask>
+  void Add(const Mask& mask, const OutlinePoint& point) noexcept {
+    constexpr float kSpacing_px = 2.0F * kOutlineDiskPx + 1.0F;
+    std::array<float, 4> offset_px;
+    for (std::size_t i = 0; i < offset_px.size(); ++i) {
+      const float at_px = (static_cast<float>(i) - 1.5F) * kSpacing_px;
+      const Vec2 place = point.pixel + at_px * point.along();
+      if (!MeanOffset(mask, place, point, offset_px[i])) return;
+    }
+    (void)contrasts_px_.push_back(
+        std::abs(offset_px[3] - offset_px[0] + 3.0F * (offset_px[1] - offset_px[2])));
+  }
+
+  /// @return Standard deviation; 0 if nothing is known.
+  [[nodiscard]] float std_px() noexcept {
+    if (contrasts_px_.empty()) return 0.0F;
+    constexpr float kStdOfContrast = 4.4721F;  // sqrt(1 + 9 + 9 + 1)
+    constexpr float kMedianOfNormal = 0.6745F;
+    auto* middle = contrasts_px_.begin() + contrasts_px_.size() / 2;
+    std::nth_element(contrasts_px_.begin(), middle, contrasts_px_.end());
+    return *middle / (kStdOfContrast * kMedianOfNormal);
+  }
+
+ private:
+  /// Mean of three places within a disk's width.
+  template <class Mask>
+  [[nodiscard]] static bool MeanOffset(const Mask& mask, const Vec2& place,
+                                       const OutlinePoint& point, float& offset_px) noexcept {
+    constexpr int kReachPx = 6;
+    constexpr float kThird_px = 3.0F;
+    offset_px = 0.0F;
+    for (int i = -1; i <= 1; ++i) {
+      int one_px = 0;
+      const Vec2 start = place + kThird_px * static_cast<float>(i) * point.along();
+      if (!FindOutline(mask, start, point.inward, kReachPx, one_px)) return false;
+      offset_px += static_cast<float>(one_px) / 3.0F;
+    }
+    return true;
+  }
+
+  FixedVector<float, kMaxPoints> contrasts_px_;
+};
+
+}  // namespace disflow
