@@ -134,7 +134,8 @@ constexpr void VisitFields(ConfigType& config, Visitor&& visitor) {
   field("registration.temporal_std_rad", reg.temporal_std_rad, 1e-5, 10.0, "rad",
         "expected deviation from the predicted rotation");
   field("registration.edge_std_px", reg.edge_std_px, 0.1, 100.0, "px",
-        "least noise of an occluding edge in the image; ragged outlines have more, which is measured");
+        "least noise of an occluding edge in the image; ragged outlines have more, which is "
+        "measured");
   field(
       "registration.edge_agreement", reg.edge_agreement, 0.0, 1.0, "1",
       "occluding edges count less when a smaller share of a frame's edges agrees with the model's; "
