@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 namespace disflow {
 namespace {
@@ -89,15 +90,13 @@ void MergeIntoEdge(const EdgePoint& point, std::uint32_t frame, ModelEdge& edge)
 
 int FindForgettable(std::span<const ModelEdge> edges, std::uint32_t frame) noexcept {
   constexpr float kKnownWeight = 3.0F;
+  const auto rank = [](const ModelEdge& edge) {
+    return std::pair(edge.weight >= kKnownWeight, edge.last_seen);
+  };
   const ModelEdge* found = nullptr;
   for (const ModelEdge& edge : edges) {
     if (edge.last_seen == frame) continue;
-    const bool known = edge.weight >= kKnownWeight;
-    const bool found_is_known = found == nullptr || found->weight >= kKnownWeight;
-    const bool better = known == found_is_known
-                            ? found == nullptr || edge.last_seen < found->last_seen
-                            : found_is_known;
-    if (better) found = &edge;
+    if (found == nullptr || rank(edge) < rank(*found)) found = &edge;
   }
   return found == nullptr ? -1 : static_cast<int>(found - edges.data());
 }

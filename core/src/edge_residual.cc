@@ -6,8 +6,7 @@ namespace disflow {
 Residual EdgeResidualOf(const EdgePoint& moved, const ModelEdge& edge) noexcept {
   constexpr float kMinSine = 0.3F;  // between ray and edge
   Residual residual;
-  Vec3 across = moved.ray.cross(edge.direction);
-  if (across.dot(moved.outward) < 0.0F) across = -across;
+  const Vec3 across = moved.ray.cross(edge.direction);
   const float sine = across.norm();
   if (sine < kMinSine) return residual;
   residual.status = ResidualStatus::kMatched;

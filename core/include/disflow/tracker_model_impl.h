@@ -50,10 +50,8 @@ void Tracker<Limits>::FuseObservations(const DepthFrame& frame, Estimate& estima
   for (int i = 0; i < wanted; ++i) {
     const auto index = (static_cast<std::int64_t>(i) * samples_.size() + offset) / wanted;
     SurfaceSample observation = samples_[std::min(static_cast<int>(index), samples_.size() - 1)];
-    const Vec2 px = frame.camera.Project(observation.position_m);
-    const bool undecided =
-        overrun_.IsReachedFrom(static_cast<int>(std::lround(px.x())),
-                               static_cast<int>(std::lround(px.y())), depth, frame.camera);
+    const PixelAt px(frame.camera.Project(observation.position_m));
+    const bool undecided = overrun_.IsReachedFrom(px.u, px.v, depth, frame.camera);
     observation.position_m = T_oc_ * observation.position_m;
     observation.normal = R_oc * observation.normal;
     if (IsForeign(observation.position_m)) {

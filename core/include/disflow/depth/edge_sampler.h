@@ -29,13 +29,12 @@ class EdgeSampler {
     edges.clear();
     Outline outline;
     outline.Find(object, given);
+    const float std_px = std::fmax(outline.std_px(), least_std_px);
     for (const OutlinePoint& point : outline.points()) {
       EdgePoint edge;
-      if (MakeEdge(depth, camera, outline, point, surfaces, config, edge))
+      if (MakeEdge(depth, camera, outline, point, surfaces, config, std_px, edge))
         (void)edges.push_back(edge);
     }
-    const float std_px = std::fmax(outline.std_px(), least_std_px);
-    for (EdgePoint& edge : edges) edge.variance_m2 *= std_px * std_px;
   }
 
  private:
@@ -44,13 +43,13 @@ class EdgeSampler {
   static constexpr int kProbePx = 6;
   static constexpr int kShadowPx = 64;
   static constexpr int kBackgroundPixels = 3;
-  static constexpr int kFlyingPx = 2;
-  static constexpr int kMatchingWindowPx = 8;
+  static constexpr int kFlyingPx = 2;  ///< Next to an outline, where pixels may be mixed ones.
 
   [[nodiscard]] static bool MakeEdge(const DepthReader& depth, const PinholeCamera& camera,
                                      const Outline& outline, const OutlinePoint& point,
                                      const SurfaceSampler<Limits>& surfaces,
-                                     const SamplerConfig& config, EdgePoint& edge) noexcept {
+                                     const SamplerConfig& config, float std_px,
+                                     EdgePoint& edge) noexcept {
     const auto surface_at = [&](float inward_px) {
       const PixelAt p(point.At(inward_px));
       return surfaces.SurfaceAt(p.u, p.v);
@@ -71,7 +70,7 @@ class EdgeSampler {
     const float facing = near.normal.dot(ray);
     const float depth_m = near.offset_m / facing;
     // Beside an exact mask the depth goes on as far as windows are matched.
-    const int rim_px = outline.is_masks() ? kMatchingWindowPx : kFlyingPx;
+    const int rim_px = outline.is_masks() ? kMatchingReachPx : kFlyingPx;
     if (!(depth_m > 0.0F) || !EndsBeforeBackground(depth, config, point, rim_px, depth_m))
       return false;
     // Where the depth's outline is ragged, its last pixels say nothing.
@@ -88,7 +87,7 @@ class EdgeSampler {
     edge.outward = edge.ray.cross(edge.direction).normalized();
     if (edge.outward.dot(inside) > 0.0F) edge.outward = -edge.outward;
     const float pixel_m = depth_m / camera.fx_px;
-    edge.variance_m2 = pixel_m * pixel_m;
+    edge.variance_m2 = pixel_m * pixel_m * (std_px * std_px);
     // The plane is known at its block, and tilts from there to the outline.
     const float along_normal_m2 =
         near.variance_m2 + near.normal_variance * (edge.position_m - near.position_m).squaredNorm();

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "disflow/depth/depth_frame.h"
 #include "disflow/depth/outline.h"
 
 namespace disflow {
@@ -39,8 +40,8 @@ class ObjectOutline {
   [[nodiscard]] bool is_masks() const noexcept { return is_masks_; }
 
  private:
-  /// How far a mask is looked for from the depth's outline: a matching window, and some.
-  static constexpr int kReachPx = 9;
+  /// How far a mask is looked for from the depth's outline.
+  static constexpr int kReachPx = kMatchingReachPx + 1;
 
   template <class Mask, class Visitor>
   static void ForEachPixel(const Mask& object, Visitor&& visit) noexcept {

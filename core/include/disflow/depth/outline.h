@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "disflow/depth/depth_frame.h"
+#include "disflow/geometry/pinhole_camera.h"
 #include "disflow/memory/fixed_vector.h"
 #include "disflow/types.h"
 
@@ -22,13 +22,9 @@ struct OutlinePoint {
   [[nodiscard]] Vec2 along() const noexcept { return {-inward.y(), inward.x()}; }
 };
 
-/// Pixel nearest to a place in the image.
-struct PixelAt {
-  explicit PixelAt(const Vec2& px) noexcept
-      : u(static_cast<int>(std::lround(px.x()))), v(static_cast<int>(std::lround(px.y()))) {}
-  int u;
-  int v;
-};
+/// How far from an object's outline a sensor that matches windows of pixels still gives the
+/// object's depth: half of a large window.
+inline constexpr int kMatchingReachPx = 8;
 
 /// Half the width of the outline that a straight line is fitted to.
 inline constexpr int kOutlineDiskPx = 4;

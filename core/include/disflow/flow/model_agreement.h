@@ -54,8 +54,8 @@ template <class Field, class OnDecided>
       ++agreement.outside;
       return;
     }
-    const float depth_m =
-        depth.At(static_cast<int>(std::lround(px.x())), static_cast<int>(std::lround(px.y())));
+    const PixelAt nearest(px);
+    const float depth_m = depth.At(nearest.u, nearest.v);
     const float tolerance_m = kToleranceFloor_m + kTolerancePerMetre * x_c.z();
     if (depth_m <= 0.0F || depth_m < x_c.z() - tolerance_m) {
       ++agreement.hidden;

@@ -53,4 +53,12 @@ struct PinholeCamera {
   }
 };
 
+/// Pixel nearest to a place in the image.
+struct PixelAt {
+  explicit PixelAt(const Vec2& px) noexcept
+      : u(static_cast<int>(std::lround(px.x()))), v(static_cast<int>(std::lround(px.y()))) {}
+  int u;
+  int v;
+};
+
 }  // namespace disflow
