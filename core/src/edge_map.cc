@@ -8,8 +8,6 @@
 namespace disflow {
 namespace {
 
-constexpr float kMaxWeight = 20.0F;
-
 bool Agree(const ModelEdge& edge, const EdgePoint& point) noexcept {
   constexpr float kMostTurnSin = 0.34F;  // 20 degrees
   constexpr float kSimilarNormalCos = 0.8F;
@@ -18,12 +16,15 @@ bool Agree(const ModelEdge& edge, const EdgePoint& point) noexcept {
 }
 
 /// Kalman update with the position along one unit vector.
-void Update(const Vec3& unit, float innovation_m, float variance_m2, const Mat<float, 3, 2>& across,
-            ModelEdge& edge) noexcept {
+/// @param per_radius What rounding adds to the position seen along it, per radius.
+void Update(const Vec3& unit, const Vec3& position_m, float per_radius, float variance_m2,
+            const Mat<float, 3, 2>& across, ModelEdge& edge) noexcept {
   const Vec2 row = across.transpose() * unit;
   const Vec2 p_row = edge.covariance * row;
   const float innovation_m2 = row.dot(p_row) + variance_m2;
-  edge.position_m += innovation_m / innovation_m2 * (across * p_row);
+  const Vec3 gain = across * p_row / innovation_m2;
+  edge.position_m += unit.dot(position_m - edge.position_m) * gain;
+  edge.position_per_radius += (per_radius - unit.dot(edge.position_per_radius)) * gain;
   // Symmetric to the bit: what is not would grow.
   edge.covariance -= p_row * p_row.transpose() / innovation_m2;
 }
@@ -31,11 +32,16 @@ void Update(const Vec3& unit, float innovation_m, float variance_m2, const Mat<f
 /// The outline in the image, and, by the depth, how far along the ray it is.
 void Observe(const EdgePoint& point, ModelEdge& edge) noexcept {
   const Mat<float, 3, 2> across = edge.Across();
-  Update(point.outward, point.outward.dot(point.position_m - edge.position_m), point.variance_m2,
-         across, edge);
+  const float offset = OutlineOffset(point.outward, edge.normal);
+  Update(point.outward, point.position_m, offset, point.variance_m2, across, edge);
   const Vec3 back = edge.direction.cross(point.outward);
   const float along_ray = point.ray.dot(back);
-  Update(back, back.dot(point.position_m - edge.position_m),
+  // The point was placed where its ray meets the face, which tells little where the two run alike.
+  constexpr float kLeastFacing = 0.1F;
+  const float facing = edge.normal.dot(back);
+  const float per_radius =
+      std::abs(facing) < kLeastFacing ? 0.0F : -offset * edge.normal.dot(point.outward) / facing;
+  Update(back, point.position_m, per_radius,
          point.variance_m2 + point.depth_variance_m2 * along_ray * along_ray, across, edge);
 }
 
@@ -55,7 +61,7 @@ float ModelEdge::VarianceAlong(const Vec3& unit) const noexcept {
 
 ModelEdge MakeModelEdge(const EdgePoint& point, std::uint32_t frame) noexcept {
   constexpr float kAnywhere_m = 0.1F;
-  ModelEdge edge{point.position_m,        point.direction, point.normal, frame, 1.0F,
+  ModelEdge edge{point.position_m,        Vec3::Zero(), point.direction, point.normal, frame, 1.0F,
                  Mat<float, 2, 2>::Zero()};
   edge.covariance.diagonal().setConstant(kAnywhere_m * kAnywhere_m);
   Observe(point, edge);
@@ -79,13 +85,13 @@ int FindNearestEdge(std::span<const ModelEdge> edges, const EdgePoint& point,
 void MergeIntoEdge(const EdgePoint& point, std::uint32_t frame, ModelEdge& edge) noexcept {
   edge.last_seen = frame;
   // What is old is believed less, so that an edge can still move.
-  if (edge.weight >= kMaxWeight) edge.covariance *= (kMaxWeight + 1.0F) / kMaxWeight;
+  if (edge.weight >= kMaxEdgeWeight) edge.covariance *= (kMaxEdgeWeight + 1.0F) / kMaxEdgeWeight;
   Observe(point, edge);
   const float gain = 1.0F / (edge.weight + 1.0F);
   const float sign = edge.direction.dot(point.direction) < 0.0F ? -1.0F : 1.0F;
   edge.direction = (edge.direction + gain * (sign * point.direction - edge.direction)).normalized();
   edge.normal = (edge.normal + gain * (point.normal - edge.normal)).normalized();
-  edge.weight = std::fmin(edge.weight + 1.0F, kMaxWeight);
+  edge.weight = std::fmin(edge.weight + 1.0F, kMaxEdgeWeight);
 }
 
 int FindForgettable(std::span<const ModelEdge> edges, std::uint32_t frame) noexcept {

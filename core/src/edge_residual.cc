@@ -3,7 +3,7 @@
 
 namespace disflow {
 
-Residual EdgeResidualOf(const EdgePoint& moved, const ModelEdge& edge) noexcept {
+Residual EdgeResidualOf(const EdgePoint& moved, const ModelEdge& edge, float radius_m) noexcept {
   constexpr float kMinSine = 0.3F;  // between ray and edge
   Residual residual;
   const Vec3 across = moved.ray.cross(edge.direction);
@@ -12,7 +12,14 @@ Residual EdgeResidualOf(const EdgePoint& moved, const ModelEdge& edge) noexcept 
   residual.status = ResidualStatus::kMatched;
   residual.point_m = moved.position_m;
   residual.gradient = across / sine;
-  residual.distance_m = residual.gradient.dot(moved.position_m - edge.position_m);
+  // Away from the object, as offsets of the outline are.
+  if (residual.gradient.dot(moved.outward) < 0.0F) residual.gradient = -residual.gradient;
+  // The model's normal is the better known: with the frame's own the offsets would be so noisy that
+  // the radius would come out too small.
+  residual.per_radius =
+      residual.gradient.dot(edge.position_per_radius) - OutlineOffset(moved.outward, edge.normal);
+  residual.distance_m =
+      residual.gradient.dot(moved.position_m - edge.position_m) + radius_m * residual.per_radius;
   residual.variance_m2 = moved.variance_m2 + edge.VarianceAlong(residual.gradient);
   return residual;
 }

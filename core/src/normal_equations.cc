@@ -6,13 +6,41 @@
 
 namespace disflow {
 
-void NormalEquations::Add(const Vec3& lever_m, const Vec3& gradient, float residual_m,
-                          float weight) noexcept {
+void NormalEquations::Add(const Vec3& lever_m, const Vec3& gradient, float residual_m, float weight,
+                          float per_radius) noexcept {
   Vec6 j;
   j.head<3>() = gradient;
   j.tail<3>() = lever_m.cross(gradient);
   h.noalias() += weight * j * j.transpose();
   b.noalias() += (weight * residual_m) * j;
+  if (per_radius == 0.0F) return;
+  h_radius.noalias() += (weight * per_radius) * j;
+  h_radius_radius += weight * per_radius * per_radius;
+  b_radius += weight * per_radius * residual_m;
+}
+
+void NormalEquations::AddRadiusPrior(float deviation_m, float variance_m2) noexcept {
+  h_radius_radius += 1.0F / variance_m2;
+  b_radius += deviation_m / variance_m2;
+}
+
+NormalEquations NormalEquations::WithoutRadius() const noexcept {
+  NormalEquations pose = *this;
+  pose.h.noalias() -= h_radius * h_radius.transpose() / h_radius_radius;
+  pose.b -= h_radius * (b_radius / h_radius_radius);
+  return pose;
+}
+
+float NormalEquations::RadiusStep(const Vec6& xi) const noexcept {
+  return -(b_radius + h_radius.dot(xi)) / h_radius_radius;
+}
+
+float NormalEquations::RadiusVariance(const NormalEquations& pose) const noexcept {
+  const float variance_m2 = 1.0F / h_radius_radius;
+  const SymmetricSolver6 solver(pose.h);
+  if (!solver.ok()) return variance_m2;
+  const Vec6 per_pose = h_radius / h_radius_radius;
+  return variance_m2 + per_pose.dot(solver.Solve(per_pose));
 }
 
 void NormalEquations::AddMoments(const Vec3& lever_m, float weight) noexcept {

@@ -62,7 +62,8 @@ void ResidualSums::Add(const Residual& residual, const ResidualWeighting& weight
   const float row_weight = weighting.trust * robust * std::fmin(residual.gradient_norm, 1.0F) /
                            (residual.variance_m2 + BlurVariance(weighting.scale_m));
   const Vec3 lever_m = residual.point_m - center_m;
-  equations.Add(lever_m, residual.gradient / residual.gradient_norm, residual_m, row_weight);
+  equations.Add(lever_m, residual.gradient / residual.gradient_norm, residual_m, row_weight,
+                residual.per_radius / residual.gradient_norm);
   equations.AddMoments(lever_m, row_weight);
   weighted_square_m2 += robust * residual_m * residual_m;
   weight += robust;

@@ -121,6 +121,7 @@ void Tracker<Limits>::Follow(StampNs stamp_ns, const Aligned& aligned,
     twist_filter_.Update(T_oc_.Inverse(), covariance.white);
   }
   estimate.weak = FindWeakDirection(covariance.reported, config_.monitor);
+  model_edges_.SetRounding(Remember(model_edges_.rounding(), aligned.rounding));
   field_.SetGeneration(aligned.generation + 1.0F);
   registered_covariance_ = covariance.reported;
   twist_unobserved_ = covariance.twist_unobserved;

@@ -391,6 +391,7 @@ TEST(Registration, JacobianOfAnEdge_IsTheDerivativeOfTheRaysDistanceFromIt) {
     model_edge.outward = model_edge.ray.cross(model_edge.direction);
     model_edge.variance_m2 = 1e-7F;
     seen.edges().Start();
+    seen.edges().SetRounding({0.0F, 1e-12F});  // sharp
     Counters counters;
     seen.edges().Insert(model_edge, 0.004F, 0, counters);
     // Seen from the camera at the origin of its frame.

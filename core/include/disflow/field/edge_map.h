@@ -6,15 +6,17 @@
 
 #include "disflow/depth/surface_sample.h"
 #include "disflow/estimate.h"
+#include "disflow/field/edge_rounding.h"
 #include "disflow/memory/fixed_vector.h"
 
 namespace disflow {
 
-/// A sharp edge of the model: what is known from the occluding-edge points seen on it. A view knows
-/// the place across its ray to a part of a pixel, along the ray only as well as the depth beside
-/// the edge. Object frame.
+/// An edge of the model: what is known from the occluding-edge points seen on it. A view knows the
+/// place across its ray to a part of a pixel, along the ray only as well as the depth beside the
+/// edge. Object frame.
 struct ModelEdge {
-  Vec3 position_m;
+  Vec3 position_m;           ///< Where the points were seen, as if the edge were sharp.
+  Vec3 position_per_radius;  ///< What a radius of rounding has added to that, per its length.
   Vec3 direction;
   Vec3 normal;                  ///< Of the surface that ends here.
   std::uint32_t last_seen;      ///< Number of the frame.
@@ -36,6 +38,9 @@ struct ModelEdge {
 [[nodiscard]] int FindNearestEdge(std::span<const ModelEdge> edges, const EdgePoint& point,
                                   float radius_m) noexcept;
 
+/// Observations after which an edge forgets as much as it learns.
+inline constexpr float kMaxEdgeWeight = 20.0F;
+
 /// Fuses a point into an edge.
 void MergeIntoEdge(const EdgePoint& point, std::uint32_t frame, ModelEdge& edge) noexcept;
 
@@ -54,8 +59,14 @@ class EdgeMap {
  public:
   using Edge = ModelEdge;
 
-  void Start() noexcept { edges_.clear(); }
+  void Start() noexcept {
+    edges_.clear();
+    rounding_ = {};
+  }
   [[nodiscard]] int size() const noexcept { return edges_.size(); }
+
+  [[nodiscard]] const EdgeRounding& rounding() const noexcept { return rounding_; }
+  void SetRounding(const EdgeRounding& rounding) noexcept { rounding_ = rounding; }
 
   /// The nearest edge with the same direction and side, within radius_m; or null.
   [[nodiscard]] const Edge* FindNearest(const EdgePoint& point, float radius_m) const noexcept {
@@ -88,6 +99,7 @@ class EdgeMap {
   }
 
   FixedVector<Edge, kMaxEdges> edges_;
+  EdgeRounding rounding_;
 };
 
 }  // namespace disflow

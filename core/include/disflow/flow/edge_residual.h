@@ -14,8 +14,10 @@ namespace disflow {
 /// The residual of an occluding edge against an edge of the model, object frame. The outline in the
 /// image moves only across the ray and across the edge, which is the gradient's direction.
 /// @param moved The observed edge in the object frame.
+/// @param radius_m Of the object's rounded edges.
 /// @return Unmatched when the edge points at the camera.
-[[nodiscard]] Residual EdgeResidualOf(const EdgePoint& moved, const ModelEdge& edge) noexcept;
+[[nodiscard]] Residual EdgeResidualOf(const EdgePoint& moved, const ModelEdge& edge,
+                                      float radius_m) noexcept;
 
 /// Residuals of a frame's occluding edges: their distance from the model's edges as the image shows
 /// it. An addition to the paper; they hold the pose along flat faces. A kind of residual as
@@ -29,9 +31,14 @@ class EdgeResiduals {
   /// Keeps references to its arguments.
   /// @param edges Camera frame.
   EdgeResiduals(const Model& model, const Edges& edges, const RegistrationConfig& config) noexcept
-      : model_(model), edges_(edges), config_(config) {}
+      : model_(model), edges_(edges), config_(config), radius_m_(known_rounding().radius_m) {}
 
   [[nodiscard]] int size() const noexcept { return edges_.size(); }
+  /// What was known of the edges' rounding before this frame.
+  [[nodiscard]] const EdgeRounding& known_rounding() const noexcept { return model_.rounding(); }
+  /// The radius that the residuals are for.
+  [[nodiscard]] float radius_m() const noexcept { return radius_m_; }
+  void SetRadius(float radius_m) noexcept { radius_m_ = radius_m; }
 
   [[nodiscard]] Residual At(int i, const PoseObjectFromCamera& T_oc, float scale_m,
                             bool reuse) noexcept {
@@ -39,13 +46,14 @@ class EdgeResiduals {
     if (reuse && known == nullptr) return {};
     const EdgePoint moved = T_oc * edges_[i];
     if (!reuse) known = model_.FindNearest(moved, config_.match_radius_m + scale_m);
-    return known == nullptr ? Residual{} : EdgeResidualOf(moved, *known);
+    return known == nullptr ? Residual{} : EdgeResidualOf(moved, *known, radius_m_);
   }
 
  private:
   const Model& model_;
   const Edges& edges_;
   const RegistrationConfig& config_;
+  float radius_m_;
   /// What an edge was matched with; written by the first search.
   std::array<const ModelEdge*, static_cast<std::size_t>(Limits::kMaxEdgePoints)> known_;
 };

@@ -31,6 +31,11 @@ struct ModelAgreement {
   }
 };
 
+/// Whether surface at some depth is close beside a place in the image. What ends a little beyond
+/// the object's outline does so because of the pose, or of a ragged outline.
+[[nodiscard]] bool IsBesideSurface(const DepthReader& depth, const PinholeCamera& camera,
+                                   const Vec2& px, float depth_m, float tolerance_m) noexcept;
+
 /// Looks up the centres of the model's local GPs that face the camera.
 /// @param on_decided on_decided(handle, seen) for each cluster that was seen, or looked through.
 template <class Field, class OnDecided>
@@ -57,9 +62,11 @@ template <class Field, class OnDecided>
     const PixelAt nearest(px);
     const float depth_m = depth.At(nearest.u, nearest.v);
     const float tolerance_m = kToleranceFloor_m + kTolerancePerMetre * x_c.z();
-    if (depth_m <= 0.0F || depth_m < x_c.z() - tolerance_m) {
+    const bool looked_through = depth_m > x_c.z() + tolerance_m;
+    if (depth_m <= 0.0F || depth_m < x_c.z() - tolerance_m ||
+        (looked_through && IsBesideSurface(depth, camera, px, x_c.z(), tolerance_m))) {
       ++agreement.hidden;
-    } else if (depth_m > x_c.z() + tolerance_m) {
+    } else if (looked_through) {
       ++agreement.contradicted;
       on_decided(handle, false);
     } else {

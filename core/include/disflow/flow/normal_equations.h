@@ -6,10 +6,14 @@
 namespace disflow {
 
 /// The linearised problem of one closed-form step (section V-D): H = sum w J^T J, b = sum w J^T d,
-/// solved for H xi = -b.
+/// solved for H xi = -b. Beside the pose there is the radius that the object's edges are rounded
+/// with (see EdgeRounding), an addition to the paper.
 struct NormalEquations {
   Mat6 h = Mat6::Zero();
   Vec6 b = Vec6::Zero();
+  Vec6 h_radius = Vec6::Zero();  ///< Pose and radius.
+  float h_radius_radius = 0.0F;
+  float b_radius = 0.0F;
   /// Moments of the residuals' weights about the centre of rotation.
   float moment_0 = 0.0F;
   Vec3 moment_1_m = Vec3::Zero();
@@ -18,7 +22,9 @@ struct NormalEquations {
   /// Adds a residual with the Jacobian of section V-D, J(x) = [grad d^T, (x cross grad d)^T].
   /// @param lever_m The point relative to the centre of rotation.
   /// @param gradient Derivative of the residual by the point's position, object frame.
-  void Add(const Vec3& lever_m, const Vec3& gradient, float residual_m, float weight) noexcept;
+  /// @param per_radius Its derivative by the radius of the edges.
+  void Add(const Vec3& lever_m, const Vec3& gradient, float residual_m, float weight,
+           float per_radius = 0.0F) noexcept;
   void AddMoments(const Vec3& lever_m, float weight) noexcept;
 
   /// sum w J^T J if the gradients pointed everywhere at once: that of an isotropic residual.
@@ -26,6 +32,18 @@ struct NormalEquations {
 
   /// The temporal regulariser |xi - v'|^2_W (section V-E), as deviation from the predicted pose.
   void AddPrior(const Vec6& deviation, float std_m, float std_rad) noexcept;
+
+  /// What was known of the radius before.
+  /// @param deviation_m Of the present radius from that.
+  void AddRadiusPrior(float deviation_m, float variance_m2) noexcept;
+  /// The same problem with the radius solved for: what it says of the pose is what is known of the
+  /// pose without knowing the radius (Schur complement).
+  [[nodiscard]] NormalEquations WithoutRadius() const noexcept;
+  /// The step of the radius that goes with a step of the pose.
+  [[nodiscard]] float RadiusStep(const Vec6& xi) const noexcept;
+  /// Variance of the radius.
+  /// @param pose The same problem without the radius, with all that is known of the pose.
+  [[nodiscard]] float RadiusVariance(const NormalEquations& pose) const noexcept;
 
   /// xi = -(H + damping diag(H))^-1 b, the damping of section V-E.
   /// @return false when the system cannot be solved.

@@ -18,31 +18,10 @@ class Recognition {
   /// @param T_oc That pose.
   /// @param center_c A point of the object, camera frame.
   /// @return Whether that confirms what a frame before recognised.
-  bool Confirm(bool recognised, const PoseObjectFromCamera& T_oc, const Vec3& center_c) noexcept {
-    const bool same = pending() && IsNear(T_oc, center_c);
-    if (recognised && same) {
-      Forget();
-      return true;
-    }
-    if (recognised) {
-      patience_ = kPatience;
-    } else if (patience_ > 0) {
-      --patience_;
-    }
-    // The object may move on while it is looked at.
-    if (recognised || same) T_oc_ = T_oc;
-    return false;
-  }
+  bool Confirm(bool recognised, const PoseObjectFromCamera& T_oc, const Vec3& center_c) noexcept;
 
  private:
-  static constexpr int kPatience = 2;
-  static constexpr float kSameTurn_rad = 0.35F;  ///< In a frame: 10 rad/s at 30 Hz.
-  static constexpr float kSameShift_m = 0.05F;   ///< And 1.5 m/s.
-
-  [[nodiscard]] bool IsNear(const PoseObjectFromCamera& T_oc, const Vec3& center_c) const noexcept {
-    return (T_oc * center_c - T_oc_ * center_c).norm() < kSameShift_m &&
-           TurnBetween(T_oc_.rotation(), T_oc.rotation()).norm() < kSameTurn_rad;
-  }
+  [[nodiscard]] bool IsNear(const PoseObjectFromCamera& T_oc, const Vec3& center_c) const noexcept;
 
   int patience_ = 0;  ///< Frames that may still confirm.
   PoseObjectFromCamera T_oc_;

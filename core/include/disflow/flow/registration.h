@@ -20,7 +20,7 @@ namespace disflow {
 ///
 /// Additions to the paper: weights 1/sigma^2 with a robust kernel whose width shrinks from step to
 /// step (graduated non-convexity), gates on normal agreement and matching distance, rotation about
-/// the observed centroid, occluding edges.
+/// the observed centroid, occluding edges with the radius that they are rounded with.
 template <class Limits>
 class Registration {
  public:
@@ -94,10 +94,13 @@ class Registration {
     EdgeResiduals<Limits> edges(model_edges, *edges_, config);
     Result result;
     result.T_oc = T_start;
+    result.rounding = edges.known_rounding();
     bool settled = false;
     for (int i = 0; i < iterations; ++i, scale = scale.Halved()) {
       // V-D: H = sum J^T J and b = sum J^T d, at the current pose.
-      NormalEquations equations = Linearise(surfaces, edges, config, scale, settled, result);
+      const NormalEquations joint = Linearise(surfaces, edges, config, scale, settled, result);
+      NormalEquations equations = joint.WithoutRadius();
+      result.information.total = equations.h;
       // V-E: the penalty on what deviates from the predicted motion.
       equations.AddPrior(DeviationAbout(center_c_, result.T_oc, T_predicted), config.temporal_std_m,
                          config.temporal_std_rad);
@@ -109,6 +112,8 @@ class Registration {
       }
       // V-D: T <- exp(xi) T.
       result.T_oc = StepAbout(result.center_m, xi, result.T_oc);
+      edges.SetRadius(edges.radius_m() + joint.RadiusStep(xi));
+      result.rounding = {edges.radius_m(), joint.RadiusVariance(equations)};
       result.iterations = i + 1;
       result.solved = true;
       // Near the end the points hardly move: they keep the surface that they were matched with.
@@ -146,7 +151,9 @@ class Registration {
     const ResidualSums edge = AddResiduals(
         edges, T_oc, center_m, {config, scale.edges_m, result.edge_trust}, reuse, equations);
 
-    result.information.total = equations.h;
+    const EdgeRounding& known = edges.known_rounding();
+    equations.AddRadiusPrior(edges.radius_m() - known.radius_m, known.variance_m2);
+
     result.center_m = center_m;
     result.inliers = surface.inliers;
     result.unmatched = surface.unmatched;

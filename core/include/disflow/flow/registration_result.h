@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "disflow/field/edge_rounding.h"
 #include "disflow/flow/pose_uncertainty.h"
 #include "disflow/geometry/transform.h"
 
@@ -24,6 +25,7 @@ struct RegistrationResult {
   PoseObjectFromCamera T_oc;
   RegistrationInformation information;  ///< At the end, about center_m, object frame.
   Vec3 center_m = Vec3::Zero();         ///< Centre of rotation, object frame.
+  EdgeRounding rounding;                ///< What is known of the object's edges by this frame.
   int iterations = 0;
   int inliers = 0;
   int edge_inliers = 0;

@@ -39,6 +39,7 @@ struct Residual {
   float gradient_norm = 1.0F;
   float distance_m = 0.0F;   ///< d
   float variance_m2 = 0.0F;  ///< Of d: observation and model together.
+  float per_radius = 0.0F;   ///< Derivative of d by the radius of the object's edges.
   float generation = 0.0F;   ///< Of the piece of surface, see Cluster.
 };
 

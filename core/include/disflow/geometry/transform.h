@@ -94,53 +94,6 @@ template <class Scalar>
   return Mat<Scalar, 3, 3>::Identity() - Scalar(0.5) * w + e * w * w;
 }
 
-/// The coupling block Q of the SE(3) left Jacobian (Barfoot, equation 7.86b).
-template <class Scalar>
-[[nodiscard]] inline Mat<Scalar, 3, 3> LeftJacobianCouplingSe3(const Mat<Scalar, 6>& xi) noexcept {
-  using std::cos;
-  using std::sin;
-  const Mat<Scalar, 3> theta = xi.template tail<3>();
-  const Scalar t = theta.norm();
-  const auto k = So3Coefficients<Scalar>::FromAngle(t);
-  const Scalar t2 = t * t;
-  // d1 = (t^2 + 2 cos t - 2) / (2 t^4), d2 = (2 t - 3 sin t + t cos t) / (2 t^5).
-  const bool small = t2 < Scalar(0.04);
-  const Scalar d1 = small ? Scalar(1) / Scalar(24) - t2 / Scalar(720) + t2 * t2 / Scalar(40320)
-                          : (t2 + Scalar(2) * cos(t) - Scalar(2)) / (Scalar(2) * t2 * t2);
-  const Scalar d2 =
-      small ? Scalar(1) / Scalar(120) - t2 / Scalar(2520) + t2 * t2 / Scalar(120960)
-            : (Scalar(2) * t - Scalar(3) * sin(t) + t * cos(t)) / (Scalar(2) * t2 * t2 * t);
-  const Mat<Scalar, 3, 3> p = Skew<Scalar>(xi.template head<3>());
-  const Mat<Scalar, 3, 3> w = Skew(theta);
-  const Mat<Scalar, 3, 3> wp = w * p;
-  const Mat<Scalar, 3, 3> pw = p * w;
-  const Mat<Scalar, 3, 3> wpw = wp * w;
-  return Scalar(0.5) * p + k.c * (wp + pw + wpw) + d1 * (w * wp + pw * w - Scalar(3) * wpw) +
-         d2 * (wpw * w + w * wpw);
-}
-
-/// Left Jacobian of SE(3): exp(xi + d) ~ exp(J_l(xi) d) exp(xi).
-template <class Scalar>
-[[nodiscard]] inline Mat<Scalar, 6, 6> LeftJacobianSe3(const Mat<Scalar, 6>& xi) noexcept {
-  Mat<Scalar, 6, 6> jacobian = Mat<Scalar, 6, 6>::Zero();
-  const Mat<Scalar, 3, 3> j = LeftJacobianSo3<Scalar>(xi.template tail<3>());
-  jacobian.template topLeftCorner<3, 3>() = j;
-  jacobian.template bottomRightCorner<3, 3>() = j;
-  jacobian.template topRightCorner<3, 3>() = LeftJacobianCouplingSe3(xi);
-  return jacobian;
-}
-
-/// Inverse of LeftJacobianSe3: log(exp(d) exp(xi)) ~ xi + J_l(xi)^-1 d.
-template <class Scalar>
-[[nodiscard]] inline Mat<Scalar, 6, 6> LeftJacobianInverseSe3(const Mat<Scalar, 6>& xi) noexcept {
-  Mat<Scalar, 6, 6> inverse = Mat<Scalar, 6, 6>::Zero();
-  const Mat<Scalar, 3, 3> j = LeftJacobianInverseSo3<Scalar>(xi.template tail<3>());
-  inverse.template topLeftCorner<3, 3>() = j;
-  inverse.template bottomRightCorner<3, 3>() = j;
-  inverse.template topRightCorner<3, 3>() = -j * LeftJacobianCouplingSe3(xi) * j;
-  return inverse;
-}
-
 /// Rigid-body transform that maps coordinates in frame `From` to coordinates in frame `To` (x_to =
 /// T x_from).
 template <class To, class From, class Scalar = float>
