@@ -76,6 +76,14 @@ TEST_F(BallInView, PoseBesideTheBall_IsContradictedInPart) {
   EXPECT_LT(agreement.conflict(), 1.0F);
 }
 
+TEST_F(BallInView, PoseOffByAPixel_ContradictsNothingAtTheOutline) {
+  for (int i = 0; i < 16; ++i) {
+    const float angle = 0.3926991F * static_cast<float>(i);
+    const Vec3 shift_m = 0.0045F * Vec3(std::cos(angle), std::sin(angle), 0.0F);
+    EXPECT_EQ(At(Vec3(0.0F, 0.0F, kDistance_m) + shift_m).contradicted, 0) << shift_m.transpose();
+  }
+}
+
 TEST_F(BallInView, PoseBehindTheBall_IsHidden) {
   const ModelAgreement agreement = At(Vec3(0.0F, 0.0F, kDistance_m + 0.1F));
   EXPECT_EQ(agreement.seen, 0);
