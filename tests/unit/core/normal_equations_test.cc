@@ -31,13 +31,14 @@ class JointProblem {
       const float weight = 1e6F * (1.5F + any(random));
       equations_.Add(lever_m, gradient, residual_m, weight, per_radius);
       Vec7 j;
-      j << gradient.cast<double>(), lever_m.cross(gradient).cast<double>(), double{per_radius};
-      h_ += double{weight} * j * j.transpose();
-      b_ += double{weight} * double{residual_m} * j;
+      j << gradient.cast<double>(), lever_m.cross(gradient).cast<double>(),
+          static_cast<double>(per_radius);
+      h_ += static_cast<double>(weight) * j * j.transpose();
+      b_ += static_cast<double>(weight) * static_cast<double>(residual_m) * j;
     }
     equations_.AddRadiusPrior(kDeviation_m, kPriorVariance_m2);
-    h_(6, 6) += 1.0 / double{kPriorVariance_m2};
-    b_(6) += double{kDeviation_m} / double{kPriorVariance_m2};
+    h_(6, 6) += 1.0 / static_cast<double>(kPriorVariance_m2);
+    b_(6) += static_cast<double>(kDeviation_m) / static_cast<double>(kPriorVariance_m2);
   }
 
   [[nodiscard]] const NormalEquations& equations() const { return equations_; }
@@ -56,7 +57,7 @@ TEST(NormalEquations, PoseAndRadius_AreThoseOfTheJointLeastSquares) {
   Vec6 xi;
   ASSERT_TRUE(problem.equations().WithoutRadius().Solve(0.0F, xi));
   EXPECT_LT((xi.cast<double>() - expected.head<6>()).norm(), 1e-4 * expected.head<6>().norm());
-  EXPECT_NEAR(double{problem.equations().RadiusStep(xi)}, expected(6),
+  EXPECT_NEAR(static_cast<double>(problem.equations().RadiusStep(xi)), expected(6),
               1e-4 * std::abs(expected(6)));
 }
 
@@ -72,7 +73,7 @@ TEST(NormalEquations, InformationOnThePose_IsThatWithAnUnknownRadius) {
 TEST(NormalEquations, VarianceOfTheRadius_IsThatWithAnUnknownPose) {
   const JointProblem problem;
   const double variance_m2 =
-      double{problem.equations().RadiusVariance(problem.equations().WithoutRadius())};
+      static_cast<double>(problem.equations().RadiusVariance(problem.equations().WithoutRadius()));
   EXPECT_NEAR(variance_m2, problem.Covariance()(6, 6), 1e-3 * variance_m2);
 }
 
