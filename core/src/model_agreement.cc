@@ -7,9 +7,8 @@
 namespace disflow {
 
 bool IsBesideSurface(const DepthReader& depth, const PinholeCamera& camera, const Vec2& px,
-                     float depth_m, float tolerance_m) noexcept {
-  constexpr float kBeside_m = 0.004F;  // How far the samples of the model are apart.
-  const float reach_px = kBeside_m * camera.fx_px / depth_m;
+                     float depth_m, float reach_m, float tolerance_m) noexcept {
+  const float reach_px = reach_m * camera.fx_px / depth_m;
   const std::array<Vec2, 4> around{Vec2(reach_px, 0.0F), Vec2(-reach_px, 0.0F),
                                    Vec2(0.0F, reach_px), Vec2(0.0F, -reach_px)};
   for (const Vec2& beside_px : around) {

@@ -33,8 +33,10 @@ struct ModelAgreement {
 
 /// Whether surface at some depth is close beside a place in the image. What ends a little beyond
 /// the object's outline does so because of the pose, or of a ragged outline.
+/// @param reach_m How far beside it.
 [[nodiscard]] bool IsBesideSurface(const DepthReader& depth, const PinholeCamera& camera,
-                                   const Vec2& px, float depth_m, float tolerance_m) noexcept;
+                                   const Vec2& px, float depth_m, float reach_m,
+                                   float tolerance_m) noexcept;
 
 /// Looks up the centres of the model's local GPs that face the camera.
 /// @param on_decided on_decided(handle, seen) for each cluster that was seen, or looked through.
@@ -45,6 +47,8 @@ template <class Field, class OnDecided>
   constexpr float kMinCosine = 0.3F;
   constexpr float kToleranceFloor_m = 0.006F;
   constexpr float kTolerancePerMetre = 0.01F;
+  // The samples of the model are as far apart.
+  const float beside_m = field.config().merge_radius_m;
   const PoseCameraFromObject T_co = T_oc.Inverse();
   const Vec3& eye_o = T_oc.translation();
   ModelAgreement agreement;
@@ -64,7 +68,7 @@ template <class Field, class OnDecided>
     const float tolerance_m = kToleranceFloor_m + kTolerancePerMetre * x_c.z();
     const bool looked_through = depth_m > x_c.z() + tolerance_m;
     if (depth_m <= 0.0F || depth_m < x_c.z() - tolerance_m ||
-        (looked_through && IsBesideSurface(depth, camera, px, x_c.z(), tolerance_m))) {
+        (looked_through && IsBesideSurface(depth, camera, px, x_c.z(), beside_m, tolerance_m))) {
       ++agreement.hidden;
     } else if (looked_through) {
       ++agreement.contradicted;

@@ -95,11 +95,13 @@ class Registration {
     Result result;
     result.T_oc = T_start;
     result.rounding = edges.known_rounding();
+    NormalEquations joint;
+    NormalEquations equations;
     bool settled = false;
     for (int i = 0; i < iterations; ++i, scale = scale.Halved()) {
       // V-D: H = sum J^T J and b = sum J^T d, at the current pose.
-      const NormalEquations joint = Linearise(surfaces, edges, config, scale, settled, result);
-      NormalEquations equations = joint.WithoutRadius();
+      joint = Linearise(surfaces, edges, config, scale, settled, result);
+      equations = joint.WithoutRadius();
       result.information.total = equations.h;
       // V-E: the penalty on what deviates from the predicted motion.
       equations.AddPrior(DeviationAbout(center_c_, result.T_oc, T_predicted), config.temporal_std_m,
@@ -113,7 +115,6 @@ class Registration {
       // V-D: T <- exp(xi) T.
       result.T_oc = StepAbout(result.center_m, xi, result.T_oc);
       edges.SetRadius(edges.radius_m() + joint.RadiusStep(xi));
-      result.rounding = {edges.radius_m(), joint.RadiusVariance(equations)};
       result.iterations = i + 1;
       result.solved = true;
       // Near the end the points hardly move: they keep the surface that they were matched with.
@@ -121,6 +122,8 @@ class Registration {
                 IsSmallerThan(xi, kSettled_m, kSettled_rad);
       if (i + 1 >= kMinSteps && IsSmallerThan(xi, kConverged_m, kConverged_rad)) break;
     }
+    // Once, at the end: it costs a factorisation.
+    if (result.solved) result.rounding = {edges.radius_m(), joint.RadiusVariance(equations)};
     return result;
   }
 
