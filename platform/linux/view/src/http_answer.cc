@@ -6,7 +6,7 @@
 namespace disflow::posix {
 namespace {
 
-constexpr std::size_t kValueBytes = 256;
+constexpr std::size_t kValueBytes = 256;  ///< Of a token that is given; longer ones are wrong.
 
 /// Builds the header lines of an answer in a buffer.
 class HeaderWriter {
@@ -70,9 +70,14 @@ const char* Explain(Verdict verdict) {
 }  // namespace
 
 std::string HeaderOf(lws* wsi, lws_token_indexes header) {
-  std::array<char, kValueBytes> value{};
-  const int size = lws_hdr_copy(wsi, value.data(), static_cast<int>(value.size()), header);
-  return size > 0 ? std::string(value.data(), static_cast<std::size_t>(size)) : std::string();
+  const int size = lws_hdr_total_length(wsi, header);
+  if (size <= 0) return {};
+  // As long as it is: what was cut off, or left out, would pass for another one. All headers
+  // together are bounded by the server.
+  std::string value(static_cast<std::size_t>(size) + 1, '\0');
+  const int copied = lws_hdr_copy(wsi, value.data(), size + 1, header);
+  value.resize(copied > 0 ? static_cast<std::size_t>(copied) : 0);
+  return value;
 }
 
 std::string CookieOf(lws* wsi, const std::string& name) {

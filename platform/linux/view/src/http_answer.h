@@ -15,8 +15,9 @@
 
 namespace disflow::posix {
 
-/// @return Empty if the header was not given, or is longer than anything that is of use here.
+/// @return All of it, however long; empty if the header was not given.
 [[nodiscard]] std::string HeaderOf(lws* wsi, lws_token_indexes header);
+/// @return Empty as well if it is longer than any token.
 [[nodiscard]] std::string CookieOf(lws* wsi, const std::string& name);
 /// @param name With the equals sign.
 [[nodiscard]] std::string QueryOf(lws* wsi, const char* name);
