@@ -151,6 +151,22 @@ PoseCameraFromObject Tracker<Limits>::Predict(const DepthFrame& frame) const noe
   return {T_co.rotation(), T_oc_.Inverse().translation()};
 }
 
+/// How fast the object moves in the image, pixels per second.
+template <CapacityProfile Limits>
+float Tracker<Limits>::ImageSpeed(const DepthFrame& frame) const noexcept {
+  constexpr float kNearest_m = 0.1F;
+  const PoseCameraFromObject T_co = T_oc_.Inverse();
+  const Vec3 center_c = T_co * Vec3(0.5F * (field_.bounds_min_m() + field_.bounds_max_m()));
+  const Twist twist = twist_filter_.twist();
+  const Vec3 velocity_mps =
+      twist.linear_mps + twist.angular_rps.cross(Vec3(center_c - T_co.translation()));
+  // The outline turns about the centre; half way out it moves as it does on average.
+  const float lever_m = 0.25F * (field_.bounds_max_m() - field_.bounds_min_m()).norm();
+  const float speed_mps = velocity_mps.norm() + twist.angular_rps.norm() * lever_m;
+  const float pixel_per_m = frame.camera.fx_px / std::max(center_c.z(), kNearest_m);
+  return speed_mps * pixel_per_m;
+}
+
 /// Whether a pose that was searched for is that of the same object frame by what is known of its
 /// motion. Many things look alike from opposite sides: neither may the pose be turned far from the
 /// predicted one, nor may the object have had the time to turn over since it was last seen.

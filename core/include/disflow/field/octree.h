@@ -7,16 +7,10 @@
 #include <cstdint>
 
 #include "disflow/field/facet_pool.h"
+#include "disflow/field/octree_cell.h"
 #include "disflow/types.h"
 
 namespace disflow {
-
-/// Integer coordinates of a leaf cell.
-struct OctreeCell {
-  int x = 0;
-  int y = 0;
-  int z = 0;
-};
 
 /// Octree over a cube around the object frame's origin, in a bounded pool of nodes (section IV,
 /// "Scalability via Octree"). Leaves are cells of fixed size that head a list of local GPs; the two
