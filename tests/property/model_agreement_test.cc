@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "disflow/field/known_surface.h"
@@ -81,6 +82,28 @@ TEST_F(BallInView, PoseOffByAPixel_ContradictsNothingAtTheOutline) {
     const float angle = 0.3926991F * static_cast<float>(i);
     const Vec3 shift_m = 0.0045F * Vec3(std::cos(angle), std::sin(angle), 0.0F);
     EXPECT_EQ(At(Vec3(0.0F, 0.0F, kDistance_m) + shift_m).contradicted, 0) << shift_m.transpose();
+  }
+}
+
+TEST(BesideSurface, ReachesAsFarAsAsked) {
+  // Surface on the left of a column, nothing but a far wall on its right.
+  constexpr int kEnd_px = 80;
+  constexpr float kNear_m = 0.5F;
+  std::vector<float> depth_m(static_cast<std::size_t>(kWidth_px * kHeight_px), 1.5F);
+  for (std::size_t v = 0; v < kHeight_px; ++v)
+    std::fill_n(depth_m.begin() + static_cast<std::ptrdiff_t>(v * kWidth_px), kEnd_px, kNear_m);
+  const DepthReader depth(
+      {depth_m.data(), kWidth_px, kHeight_px, 4 * kWidth_px, DepthFormat::kFloat32, 0.001F}, 0.1F,
+      10.0F);
+  // That of an object's model, and of a room's.
+  for (const float reach_m : {0.004F, 0.06F}) {
+    const float reach_px = reach_m * kCamera.fx_px / kNear_m;
+    const auto is_beside = [&](float beyond_px) {
+      const Vec2 px(static_cast<float>(kEnd_px - 1) + beyond_px, 60.0F);
+      return IsBesideSurface(depth, kCamera, px, kNear_m, reach_m, 0.01F);
+    };
+    EXPECT_TRUE(is_beside(reach_px)) << reach_m;
+    EXPECT_FALSE(is_beside(reach_px + 1.0F)) << reach_m;
   }
 }
 
