@@ -6,8 +6,6 @@
 namespace disflow::posix {
 namespace {
 
-constexpr std::size_t kValueBytes = 256;  ///< Of a token that is given; longer ones are wrong.
-
 /// Builds the header lines of an answer in a buffer.
 class HeaderWriter {
  public:
@@ -70,25 +68,20 @@ const char* Explain(Verdict verdict) {
 }  // namespace
 
 std::string HeaderOf(lws* wsi, lws_token_indexes header) {
-  const int size = lws_hdr_total_length(wsi, header);
-  if (size <= 0) return {};
-  // As long as it is: what was cut off, or left out, would pass for another one. All headers
-  // together are bounded by the server.
-  std::string value(static_cast<std::size_t>(size) + 1, '\0');
-  const int copied = lws_hdr_copy(wsi, value.data(), size + 1, header);
-  value.resize(copied > 0 ? static_cast<std::size_t>(copied) : 0);
-  return value;
+  std::array<char, kHeaderBytes> value{};
+  const int size = lws_hdr_copy(wsi, value.data(), static_cast<int>(value.size()), header);
+  return size > 0 ? std::string(value.data(), static_cast<std::size_t>(size)) : std::string();
 }
 
 std::string CookieOf(lws* wsi, const std::string& name) {
-  std::array<char, kValueBytes> value{};
+  std::array<char, kHeaderBytes> value{};
   std::size_t size = value.size();
   const bool found = lws_http_cookie_get(wsi, name.c_str(), value.data(), &size) == 0;
   return found ? std::string(value.data(), size) : std::string();
 }
 
 std::string QueryOf(lws* wsi, const char* name) {
-  std::array<char, kValueBytes> value{};
+  std::array<char, kHeaderBytes> value{};
   const char* const found =
       lws_get_urlarg_by_name(wsi, name, value.data(), static_cast<int>(value.size()));
   return found == nullptr ? std::string() : std::string(found);

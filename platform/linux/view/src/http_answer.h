@@ -3,6 +3,7 @@
 
 #include <libwebsockets.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -15,9 +16,12 @@
 
 namespace disflow::posix {
 
-/// @return All of it, however long; empty if the header was not given.
+/// Of a request, all lines together. One that has more is not answered, so every header fits: one
+/// that did not would pass for one that was not given.
+inline constexpr std::size_t kHeaderBytes = 4096;
+
+/// @return Empty if the header was not given.
 [[nodiscard]] std::string HeaderOf(lws* wsi, lws_token_indexes header);
-/// @return Empty as well if it is longer than any token.
 [[nodiscard]] std::string CookieOf(lws* wsi, const std::string& name);
 /// @param name With the equals sign.
 [[nodiscard]] std::string QueryOf(lws* wsi, const char* name);

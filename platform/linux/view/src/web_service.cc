@@ -11,7 +11,6 @@
 namespace disflow::posix {
 namespace {
 
-constexpr unsigned kHeaderBytes = 4096;  ///< Of a request, all lines together.
 constexpr std::size_t kReceiveBytes = 64;
 constexpr int kDownload_s = 30;
 constexpr int kCommandsPerSecond = 20;
