@@ -40,9 +40,8 @@ void DdsInputs::TakeTransforms(const DdsClock& clock) {
     }
     // After every message: each is a moment of its own.
     const auto camera = transforms_.Camera();
-    if (!camera || camera->ros_ns <= pose_ns_ || !clock.known()) return;
-    pose_ns_ = camera->ros_ns;
-    poses_->Put(clock.FromRos(camera->ros_ns), camera->T_wc);
+    if (!camera || !clock.known()) return;
+    poses_->Put(clock.FromRosOfOthers(camera->ros_ns), camera->T_wc);
   };
   tf_static_.TakeAll([&add](const ros::TFMessage& message) { add(message, true); });
   tf_.TakeAll([&add](const ros::TFMessage& message) { add(message, false); });

@@ -31,7 +31,6 @@ class DdsInputs {
   PoseMailbox* poses_;
   MaskMailbox* masks_;
   DdsTransforms transforms_;
-  std::int64_t pose_ns_ = 0;  ///< ROS time of the pose handed on last.
   posix::RosSubscription<posix::ros::TFMessage> tf_;
   posix::RosSubscription<posix::ros::TFMessage> tf_static_;
   posix::RosSubscription<posix::ros::Image> images_;

@@ -2,6 +2,7 @@
 #include "dds/dds_transforms.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "dds/dds_motion.h"
 
@@ -33,7 +34,7 @@ void DdsTransforms::Add(const posix::ros::TransformStamped& message, bool fixed)
   links_[child] = std::move(link);
 }
 
-std::optional<DdsTransforms::CameraPose> DdsTransforms::Camera() const {
+std::optional<DdsTransforms::CameraPose> DdsTransforms::Camera() {
   CameraPose pose;
   bool moves = false;
   const std::string* frame = &camera_;
@@ -41,12 +42,14 @@ std::optional<DdsTransforms::CameraPose> DdsTransforms::Camera() const {
   for (int depth = 0; depth < kMaxDepth && *frame != world_; ++depth) {
     const auto found = links_.find(*frame);
     if (found == links_.end()) return std::nullopt;
-    const Link& link = found->second;
+    Link& link = found->second;
     const auto& above = link.T_parent_child;
     pose.T_wc = {Mat<double, 3, 3>(above.rotation() * pose.T_wc.rotation()),
                  Mat<double, 3>(above.rotation() * pose.T_wc.translation() + above.translation())};
-    if (!link.fixed) pose.ros_ns = moves ? std::max(pose.ros_ns, link.ros_ns) : link.ros_ns;
-    moves = moves || !link.fixed;
+    if (!link.fixed && std::exchange(link.has_come, false)) {
+      pose.ros_ns = moves ? std::max(pose.ros_ns, link.ros_ns) : link.ros_ns;
+      moves = true;
+    }
     frame = &link.parent;
   }
   if (*frame != world_ || !moves) return std::nullopt;

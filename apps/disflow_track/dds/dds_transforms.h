@@ -19,7 +19,7 @@ class DdsTransforms {
 
   /// Where the camera is.
   struct CameraPose {
-    std::int64_t ros_ns = 0;  ///< Of the newest of the moving links.
+    std::int64_t ros_ns = 0;  ///< Of the newest of the moving links that have come.
     PoseMailbox::Pose T_wc;
   };
 
@@ -28,8 +28,9 @@ class DdsTransforms {
 
   /// @param fixed From /tf_static. What is no transform is left out.
   void Add(const posix::ros::TransformStamped& message, bool fixed);
-  /// @return Nothing if the world does not lead to the camera, or by fixed links alone.
-  [[nodiscard]] std::optional<CameraPose> Camera() const;
+  /// @return Nothing if the world does not lead to the camera, or if none of the moving links
+  /// between them has come since the last call.
+  [[nodiscard]] std::optional<CameraPose> Camera();
 
  private:
   struct Link {
@@ -37,6 +38,7 @@ class DdsTransforms {
     PoseMailbox::Pose T_parent_child;
     std::int64_t ros_ns = 0;
     bool fixed = false;
+    bool has_come = true;  ///< Since Camera() was called last.
   };
 
   std::string world_;

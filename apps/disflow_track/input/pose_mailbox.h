@@ -31,10 +31,11 @@ class PoseMailbox {
   }
 
   /// By the tracking thread. Poses that the history refuses are counted there.
-  void MoveTo(hal::CameraPoseHistory& history) noexcept {
+  /// @param now_ns Now, on the clock of the stamps.
+  void MoveTo(hal::CameraPoseHistory& history, std::int64_t now_ns) noexcept {
     const std::lock_guard lock(mutex_);
     for (; count_ > 0; --count_, first_ = (first_ + 1) % kCapacity) {
-      (void)history.Add(poses_[first_].first, poses_[first_].second, /*reset_counter=*/0);
+      (void)history.Add(poses_[first_].first, poses_[first_].second, /*reset_counter=*/0, now_ns);
     }
   }
 

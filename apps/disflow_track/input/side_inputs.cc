@@ -8,7 +8,10 @@
 namespace disflow::apps {
 namespace {
 
-hal::CameraPoseHistory::Settings PoseSettings(const CameraPoseOptions& options) {
+/// By how much the clock of another machine may be ahead although both are kept in step.
+constexpr std::int64_t kMaxLead_ns = 50'000'000;
+
+hal::CameraPoseHistory::Settings PoseSettings(const CameraPoseOptions& options, bool live) {
   // Optical axes (right, down, forward) in a body's (forward, right, down).
   std::vector<double> numbers = {0.0, 0.0, 0.0, 0.5, 0.5, 0.5, 0.5};
   if (!options.camera_in_body.empty()) numbers = options.camera_in_body;
@@ -16,7 +19,10 @@ hal::CameraPoseHistory::Settings PoseSettings(const CameraPoseOptions& options) 
                                                       numbers[6]);
   const Transform<hal::Body, Camera, double> T_bc(
       q, Mat<double, 3>(numbers[0], numbers[1], numbers[2]));
-  return {.T_bc = T_bc.Cast<float>()};
+  hal::CameraPoseHistory::Settings settings{.T_bc = T_bc.Cast<float>()};
+  // Nobody knows where the carrier will be. What is sent to a replay may come at any pace.
+  if (live) settings.max_lead_ns = kMaxLead_ns;
+  return settings;
 }
 
 std::string Line(const std::string& name,
@@ -38,7 +44,9 @@ SideInputs::SideInputs(const Options& options, const hal::SensorInfo& sensor) {
     masks_ = posix::MakeMaskSource(options.mask_stream, sensor.width_px, sensor.height_px,
                                    std::llround(options.mask_max_age_s * 1e9));
   }
-  if (options.camera_pose.system_id != 0) poses_.emplace(PoseSettings(options.camera_pose));
+  if (options.camera_pose.system_id != 0) {
+    poses_.emplace(PoseSettings(options.camera_pose, sensor.live));
+  }
   if (options.dds_link.empty()) return;
   const DdsAddress address = ParseDdsAddress(options.dds_link);
   if (!address.mask_topic.empty()) {
@@ -69,7 +77,7 @@ void SideInputs::Attach(DepthFrame& frame, Console& console) noexcept {
       mask_status_ = status;
     }
   }
-  if (pose_mailbox_) pose_mailbox_->MoveTo(*poses_);
+  if (pose_mailbox_) pose_mailbox_->MoveTo(*poses_, frame.stamp_ns);
   if (poses_) frame.has_T_wc = poses_->At(frame.stamp_ns, frame.T_wc) == Status::kOk;
 }
 
@@ -88,6 +96,7 @@ std::vector<std::string> SideInputs::Summary() const {
     const hal::CameraPoseHistory::Counters& counters = poses_->counters();
     lines.push_back(Line("camera poses", {{"received", counters.poses},
                                           {"refused", counters.refused},
+                                          {"of them for their stamp", counters.wrong_stamp},
                                           {"jumps", counters.jumps},
                                           {"frames matched", counters.matched},
                                           {"of them extrapolated", counters.continued},

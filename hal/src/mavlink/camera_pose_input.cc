@@ -10,9 +10,6 @@
 namespace disflow::hal::mavlink {
 namespace {
 
-/// Two quartzes run apart by less than this share; so much the learnt offset may grow back.
-constexpr std::int64_t kClockDrift = 10'000;
-
 /// @return false if the rotation is none.
 bool ToPose(const Odometry& odometry, Transform<World, Body, double>& T_wb) noexcept {
   const Eigen::Quaternion<double, Eigen::DontAlign> q(
@@ -53,22 +50,22 @@ void CameraPoseInput::Take(const FrameView& frame, std::int64_t now_ns) noexcept
     AddSaturating(counters_.failed);
     return;
   }
+  const Expected<StampNs> stamp = ToCaptureClock(odometry.time_usec, now_ns);
+  if (!stamp.ok()) {
+    history_->RefuseStamp();
+    return;
+  }
   // Refused poses are counted there.
-  (void)history_->Add(ToCaptureClock(odometry.time_usec, now_ns), T_wb, odometry.reset_counter);
+  (void)history_->Add(stamp.value, T_wb, odometry.reset_counter, now_ns);
 }
 
-StampNs CameraPoseInput::ToCaptureClock(std::uint64_t time_usec, std::int64_t now_ns) noexcept {
+Expected<StampNs> CameraPoseInput::ToCaptureClock(std::uint64_t time_usec,
+                                                  std::int64_t now_ns) noexcept {
   constexpr auto kMax_us =
       static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max() / 4000);
   const auto stamp_ns = static_cast<std::int64_t>(std::min(time_usec, kMax_us)) * 1000;
-  if (!source_.own_clock) return stamp_ns;
-  const std::int64_t offset_ns = now_ns - stamp_ns;
-  if (!has_offset_) offset_ns_ = offset_ns;
-  has_offset_ = true;
-  const std::int64_t drift_ns = (now_ns - offset_at_ns_) / kClockDrift;
-  offset_at_ns_ = now_ns;
-  offset_ns_ = std::min(offset_ns_ + std::max<std::int64_t>(drift_ns, 0), offset_ns);
-  return stamp_ns + offset_ns_;
+  if (!source_.own_clock) return {stamp_ns};
+  return clock_.ToOwn(stamp_ns, now_ns);
 }
 
 }  // namespace disflow::hal::mavlink

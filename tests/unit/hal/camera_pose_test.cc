@@ -32,11 +32,16 @@ CameraPoseHistory::Settings WithOffset() {
   return settings;
 }
 
+/// Adds a pose as it comes in at its own moment.
+Status Add(CameraPoseHistory& history, std::int64_t since_start_ns, double seconds,
+           std::uint8_t reset_counter = 0) {
+  const StampNs stamp_ns = kStart + since_start_ns;
+  return history.Add(stamp_ns, ScrewAt(seconds), reset_counter, stamp_ns);
+}
+
 void Fill(CameraPoseHistory& history, int count, std::int64_t step_ns) {
   for (int i = 0; i < count; ++i) {
-    EXPECT_EQ(
-        history.Add(kStart + i * step_ns, ScrewAt(static_cast<double>(i * step_ns) * 1e-9), 0),
-        Status::kOk);
+    EXPECT_EQ(Add(history, i * step_ns, static_cast<double>(i * step_ns) * 1e-9), Status::kOk);
   }
 }
 
@@ -71,9 +76,9 @@ TEST(CameraPoses, GapBeforeTheFirstAndEmptyHistory_HaveNoPose) {
   CameraPoseHistory history(WithOffset());
   Transform<World, Camera> T_wc;
   EXPECT_EQ(history.At(kStart, T_wc), Status::kNotFound);
-  EXPECT_EQ(history.Add(kStart, ScrewAt(0.0), 0), Status::kOk);
+  EXPECT_EQ(Add(history, 0, 0.0), Status::kOk);
   EXPECT_EQ(history.At(kStart, T_wc), Status::kNotFound) << "one pose is no motion";
-  EXPECT_EQ(history.Add(kStart + 400 * kMs, ScrewAt(0.4), 0), Status::kOk);
+  EXPECT_EQ(Add(history, 400 * kMs, 0.4), Status::kOk);
   EXPECT_EQ(history.At(kStart + 200 * kMs, T_wc), Status::kNotFound) << "in a gap";
   EXPECT_EQ(history.At(kStart - 1, T_wc), Status::kNotFound);
   EXPECT_EQ(history.At(std::numeric_limits<std::int64_t>::min(), T_wc), Status::kNotFound);
@@ -95,7 +100,7 @@ TEST(CameraPoses, MoreThanTheCapacity_KeepsTheNewest) {
 TEST(CameraPoses, JumpOfTheSender_IsNeverInterpolatedAcross) {
   CameraPoseHistory history(WithOffset());
   Fill(history, 3, 20 * kMs);
-  EXPECT_EQ(history.Add(kStart + 60 * kMs, ScrewAt(5.0), 1), Status::kOk);
+  EXPECT_EQ(Add(history, 60 * kMs, 5.0, 1), Status::kOk);
   Transform<World, Camera> T_wc;
   EXPECT_EQ(history.At(kStart + 50 * kMs, T_wc), Status::kNotFound);
   EXPECT_EQ(history.counters().jumps, 1U);
@@ -105,17 +110,70 @@ TEST(CameraPoses, WhatIsNoPoseOrNotNewer_IsRefused) {
   CameraPoseHistory history(WithOffset());
   Fill(history, 2, 20 * kMs);
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(
-      history.Add(kStart + 40 * kMs, BodyPose(ScrewAt(0.0).rotation(), Vec3d(nan, 0.0, 0.0)), 0),
-      Status::kInvalidTransform);
-  EXPECT_EQ(
-      history.Add(kStart + 40 * kMs,
-                  BodyPose(Mat<double, 3, 3>(2.0 * ScrewAt(0.0).rotation()), Vec3d::Zero()), 0),
-      Status::kInvalidTransform);
-  EXPECT_EQ(history.Add(kStart + 20 * kMs, ScrewAt(0.0), 0), Status::kStampNotIncreasing);
-  EXPECT_EQ(history.Add(kStart, ScrewAt(0.0), 0), Status::kStampNotIncreasing);
+  EXPECT_EQ(history.Add(kStart + 40 * kMs, BodyPose(ScrewAt(0.0).rotation(), Vec3d(nan, 0.0, 0.0)),
+                        0, kStart),
+            Status::kInvalidTransform);
+  EXPECT_EQ(history.Add(kStart + 40 * kMs,
+                        BodyPose(Mat<double, 3, 3>(2.0 * ScrewAt(0.0).rotation()), Vec3d::Zero()),
+                        0, kStart),
+            Status::kInvalidTransform);
+  EXPECT_EQ(Add(history, 20 * kMs, 0.0), Status::kStampNotIncreasing);
+  EXPECT_EQ(Add(history, 0, 0.0), Status::kStampNotIncreasing);
   EXPECT_EQ(history.counters().refused, 4U);
+  EXPECT_EQ(history.counters().wrong_stamp, 2U);
   EXPECT_EQ(history.counters().poses, 2U);
+}
+
+TEST(CameraPoses, FasterThanTheMemoryHolds_StillReachBackTheTimePromised) {
+  CameraPoseHistory history(WithOffset());
+  constexpr int kPoses = 3000;
+  Fill(history, kPoses, kMs);
+  EXPECT_EQ(history.counters().poses, static_cast<std::uint32_t>(kPoses));
+  Transform<World, Camera> T_wc;
+  for (std::int64_t back = 0; back <= CameraPoseHistory::kMinSpan_ns; back += 3'333'333) {
+    const std::int64_t at = (kPoses - 1) * kMs - back;
+    ASSERT_EQ(history.At(kStart + at, T_wc), Status::kOk) << back;
+    EXPECT_LT(Apart(T_wc, ScrewAt(static_cast<double>(at) * 1e-9), WithOffset().T_bc), 3e-6);
+  }
+  EXPECT_EQ(history.counters().continued, 0U);
+}
+
+TEST(CameraPoses, StampsFarFromNow_AreRefusedAndCounted) {
+  CameraPoseHistory history(WithOffset());
+  Fill(history, 2, 20 * kMs);
+  constexpr StampNs kFar_ns = 3'600'000 * kMs;
+  for (const StampNs stamp_ns :
+       {StampNs{0}, kStart - kFar_ns, kStart + kFar_ns, std::numeric_limits<StampNs>::min(),
+        std::numeric_limits<StampNs>::max()}) {
+    // However many of them agree.
+    for (int i = 0; i < 40; ++i) {
+      const StampNs next_ns = stamp_ns > 0 ? stamp_ns - (40 - i) * kMs : stamp_ns + i * kMs;
+      EXPECT_EQ(history.Add(next_ns, ScrewAt(0.0), 0, kStart + 20 * kMs),
+                Status::kStampNotIncreasing);
+    }
+  }
+  EXPECT_EQ(history.counters().wrong_stamp, 200U);
+  EXPECT_EQ(Add(history, 40 * kMs, 0.04), Status::kOk);
+  Transform<World, Camera> T_wc;
+  ASSERT_EQ(history.At(kStart + 30 * kMs, T_wc), Status::kOk);
+  EXPECT_LT(Apart(T_wc, ScrewAt(0.03), WithOffset().T_bc), 2e-6);
+}
+
+TEST(CameraPoses, MessagesThatComeTwiceOrBySlowerLinks_ChangeNothing) {
+  CameraPoseHistory one(WithOffset());
+  CameraPoseHistory two(WithOffset());
+  for (int i = 0; i < 60; ++i) {
+    (void)Add(one, i * 20 * kMs, i * 0.02);
+    (void)Add(two, i * 20 * kMs, i * 0.02);
+    (void)Add(two, i * 20 * kMs, i * 0.02);
+    if (i >= 5) (void)Add(two, (i - 5) * 20 * kMs + 7 * kMs, (i - 5) * 0.02 + 0.007);
+    Transform<World, Camera> a;
+    Transform<World, Camera> b;
+    ASSERT_EQ(one.At(kStart + i * 20 * kMs + 5 * kMs, a),
+              two.At(kStart + i * 20 * kMs + 5 * kMs, b));
+    EXPECT_TRUE(a.translation() == b.translation() && a.rotation() == b.rotation()) << i;
+  }
+  EXPECT_EQ(two.counters().poses, 60U);
 }
 
 /// One ODOMETRY as the carrier sends it.
@@ -191,10 +249,10 @@ TEST(CameraPoseInput, StampsAtTheEndOfTime_DoNoHarm) {
     input.Receive(Message(0.0, 1, mavlink::MavFrame::kLocalFrd, stamp), 5);
     same.Receive(Message(0.0, 1, mavlink::MavFrame::kLocalFrd, stamp), 5);
   }
-  // One comes to lie at the moment of arrival, one at the end of time; the others are not newer.
-  EXPECT_EQ(history.counters().poses, 2U);
-  EXPECT_EQ(history.counters().refused, 4U);
-  // There is no motion between two poses so far apart.
+  // One comes to lie at the moment of arrival; one is older, the others are far away.
+  EXPECT_EQ(history.counters().poses, 1U);
+  EXPECT_EQ(history.counters().wrong_stamp, 4U);
+  // One pose is no motion.
   Transform<World, Camera> T_wc;
   for (const StampNs at : {StampNs{5}, StampNs{1'000'000}, std::numeric_limits<StampNs>::max()})
     EXPECT_EQ(history.At(at, T_wc), Status::kNotFound) << at;

@@ -160,11 +160,11 @@ TEST(PoseMailbox, FullMailbox_KeepsTheNewestInOrder) {
   PoseMailbox mailbox;
   for (std::int64_t i = 1; i <= kPoses; ++i) mailbox.Put(i, Numbered(i));
   hal::CameraPoseHistory history({});
-  mailbox.MoveTo(history);
+  mailbox.MoveTo(history, /*now_ns=*/0);
   // In order, or the history would have refused some.
   EXPECT_EQ(history.counters().poses, PoseMailbox::kCapacity);
   EXPECT_EQ(history.counters().refused, 0U);
-  mailbox.MoveTo(history);
+  mailbox.MoveTo(history, /*now_ns=*/0);
   EXPECT_EQ(history.counters().poses, PoseMailbox::kCapacity);
 }
 
@@ -177,9 +177,9 @@ TEST(PoseMailbox, StressOfAFastWriter_PosesAreWholeInOrderAndTheLastArrives) {
     done = true;
   });
   hal::CameraPoseHistory history({});
-  while (!done) mailbox.MoveTo(history);
+  while (!done) mailbox.MoveTo(history, /*now_ns=*/0);
   writer.join();
-  mailbox.MoveTo(history);
+  mailbox.MoveTo(history, /*now_ns=*/0);
   EXPECT_EQ(history.counters().refused, 0U) << "they came in order, each once";
   Transform<World, Camera> T_wc;
   ASSERT_EQ(history.At(kPoses, T_wc), Status::kOk);

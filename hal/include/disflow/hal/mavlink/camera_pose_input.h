@@ -8,6 +8,7 @@
 #include "disflow/hal/camera_pose_history.h"
 #include "disflow/hal/mavlink/frame_decoder.h"
 #include "disflow/hal/mavlink/messages.h"
+#include "disflow/hal/sender_clock.h"
 
 namespace disflow::hal::mavlink {
 
@@ -16,7 +17,7 @@ struct CameraPoseSource {
   std::uint8_t system_id = 1;
   MavFrame world = MavFrame::kLocalFrd;  ///< ODOMETRY in another frame is refused.
   /// false: time_usec is on the clock of the depth images' stamps. true: on a clock of the sender's
-  /// own; its offset is learnt from when messages arrive, the quickest being taken for immediate.
+  /// own; its offset is learnt from when messages arrive, see SenderClock.
   bool own_clock = false;
 };
 
@@ -42,16 +43,15 @@ class CameraPoseInput {
 
  private:
   void Take(const FrameView& frame, std::int64_t now_ns) noexcept;
-  [[nodiscard]] StampNs ToCaptureClock(std::uint64_t time_usec, std::int64_t now_ns) noexcept;
+  [[nodiscard]] Expected<StampNs> ToCaptureClock(std::uint64_t time_usec,
+                                                 std::int64_t now_ns) noexcept;
 
   CameraPoseSource source_;
   CameraPoseHistory* history_;
   FrameDecoder decoder_;
   CameraPoseInputCounters counters_;
   std::uint8_t refused_frame_ = 0;
-  bool has_offset_ = false;
-  std::int64_t offset_ns_ = 0;
-  std::int64_t offset_at_ns_ = 0;
+  SenderClock clock_;
 };
 
 }  // namespace disflow::hal::mavlink
