@@ -11,9 +11,6 @@ using hal::Fault;
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
-constexpr int kPiecesPerTurn = 8;
-constexpr std::size_t kPiece_bytes = 2048;
-
 hal::mavlink::TelemetryOptions EncoderOptions(const Options& options, std::uint8_t object_index) {
   hal::mavlink::TelemetryOptions encoder;
   encoder.object_index = object_index;
@@ -25,6 +22,10 @@ hal::mavlink::CameraPoseSource PoseSource(const CameraPoseOptions& options) {
   return {.system_id = static_cast<std::uint8_t>(options.system_id),
           .world = options.world,
           .own_clock = options.own_clock};
+}
+
+std::string LeftOut(std::uint64_t bytes) {
+  return bytes == 0 ? "" : ", " + std::to_string(bytes) + " received bytes left out as too many";
 }
 
 }  // namespace
@@ -72,22 +73,16 @@ void TelemetryOutput::Send(std::span<const FrameResult> results, std::int64_t ag
   }
 }
 
-void TelemetryOutput::Receive(std::int64_t now_ns) noexcept {
+void TelemetryOutput::Receive(std::int64_t capture_now_ns) noexcept {
   for (Line& line : lines_) {
-    if (!line.lost) ReceiveOn(line, now_ns);
+    if (!line.lost) ReceiveOn(line, capture_now_ns);
   }
 }
 
-void TelemetryOutput::ReceiveOn(Line& line, std::int64_t now_ns) noexcept {
-  std::array<std::byte, kPiece_bytes> piece;
-  for (int i = 0; i < kPiecesPerTurn; ++i) {
-    const Expected<std::size_t> received = line.link.get()->Receive(piece);
-    // A device that is gone shows when something is sent, and that is soon.
-    if (!received.ok() || received.value == 0) break;
-    const auto bytes = std::span(piece).first(received.value);
-    line.queries.Receive(bytes);
-    if (line.camera_pose) line.camera_pose->Receive(bytes, now_ns);
-  }
+void TelemetryOutput::ReceiveOn(Line& line, std::int64_t capture_now_ns) noexcept {
+  const std::span<const std::byte> bytes = line.reader.Read(*line.link.get());
+  line.queries.Receive(bytes);
+  if (line.camera_pose) line.camera_pose->Receive(bytes, capture_now_ns);
   if (!line.camera_pose || line.camera_pose->refused_frame() == 0 || line.frame_refusal_said)
     return;
   line.frame_refusal_said = true;
@@ -117,7 +112,6 @@ void TelemetryOutput::Answer(const TrackedObjects& objects,
 
 void TelemetryOutput::KeepAlive(std::int64_t now_ns) noexcept {
   if (lines_.empty()) return;
-  Receive(now_ns);
   Reopen(now_ns);
   if (!heartbeat_sent_ || now_ns - heartbeat_ns_ >= kSecond_ns) SendHeartbeats(now_ns);
 }
@@ -168,7 +162,7 @@ std::vector<std::string> TelemetryOutput::Summary() {
                       " messages sent, " + std::to_string(counters.dropped_messages) +
                       " dropped, " + std::to_string(counters.refused_messages) + " refused, " +
                       std::to_string(counters.reconnects) + " reconnects" +
-                      (line.lost ? ", lost" : ""));
+                      LeftOut(line.reader.dropped_bytes()) + (line.lost ? ", lost" : ""));
   }
   return summary;
 }

@@ -13,6 +13,7 @@
 #include "disflow/hal/mavlink/distance_query_input.h"
 #include "disflow/hal/mavlink/telemetry.h"
 #include "disflow/posix/link.h"
+#include "links/link_reader.h"
 #include "objects/tracked_object.h"
 #include "program/console.h"
 #include "program/frame_result.h"
@@ -40,7 +41,8 @@ class TelemetryOutput {
   void Send(std::span<const FrameResult> results, std::int64_t age_ns,
             std::int64_t now_ns) noexcept;
   /// Takes what has come in, a bounded number of bytes.
-  void Receive(std::int64_t now_ns) noexcept;
+  /// @param capture_now_ns Now, on the clock of the depth images' stamps.
+  void Receive(std::int64_t capture_now_ns) noexcept;
   /// Answers the questions of those who listen, a bounded number per frame.
   /// @param objects In the order of Options::objects.
   void Answer(const TrackedObjects& objects, std::span<const FrameResult> results) noexcept;
@@ -55,6 +57,7 @@ class TelemetryOutput {
  private:
   struct Line {
     posix::Link link;
+    LinkReader reader;
     bool lost = false;
     std::int64_t retry_ns = 0;
     std::optional<hal::mavlink::CameraPoseInput> camera_pose;
@@ -71,7 +74,7 @@ class TelemetryOutput {
 
   void SendHeartbeats(std::int64_t now_ns) noexcept;
   void Broadcast(Expected<std::size_t> size) noexcept;
-  void ReceiveOn(Line& line, std::int64_t now_ns) noexcept;
+  void ReceiveOn(Line& line, std::int64_t capture_now_ns) noexcept;
   void SendOn(Line& line, std::span<const std::byte> message) noexcept;
   void Reopen(std::int64_t now_ns) noexcept;
 

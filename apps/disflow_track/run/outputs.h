@@ -34,7 +34,8 @@ class Outputs {
   void WriteMeshes(const TrackedObjects& objects, double resolution_m);
 
   /// Takes what has come in on the links.
-  void Receive(std::int64_t now_ns) noexcept { telemetry_.Receive(now_ns); }
+  /// @param capture_now_ns Now, on the clock of the depth images' stamps.
+  void Receive(std::int64_t capture_now_ns) noexcept { telemetry_.Receive(capture_now_ns); }
   /// Answers what was asked on the links, after a frame.
   void Answer(const TrackedObjects& objects, std::span<const FrameResult> results) noexcept {
     telemetry_.Answer(objects, results);

@@ -123,7 +123,7 @@ class TrackingRun {
       const FrameFeed::Turn turn = feed.Next(frame_);
       if (turn.event == FrameSource::Event::kEnd) return;
       if (turn.event == FrameSource::Event::kIdle) {
-        outputs_.KeepAlive(clock_.NowNs());
+        KeepAlive(clock_.NowNs());
       } else {
         Take(turn, pool);
       }
@@ -142,8 +142,19 @@ class TrackingRun {
     constexpr std::int64_t kRest_ns = 20'000'000;
     const std::int64_t now_ns = clock_.NowNs();
     clock_.SleepUntilNs(now_ns + kRest_ns);
-    outputs_.KeepAlive(now_ns);
+    KeepAlive(now_ns);
     service_.Turn(results_, /*source_is_alive=*/true, now_ns);
+  }
+
+  /// No frame comes: whoever is at the far ends of the links must not notice.
+  void KeepAlive(std::int64_t now_ns) noexcept {
+    outputs_.Receive(CaptureNowNs(now_ns));
+    outputs_.KeepAlive(now_ns);
+  }
+
+  /// Now, on the clock of the frames' stamps. That of a replay goes on from frame to frame.
+  [[nodiscard]] std::int64_t CaptureNowNs(std::int64_t now_ns) const noexcept {
+    return info_.live ? now_ns : frame_.stamp_ns;
   }
 
   void Take(const FrameFeed::Turn& turn, WorkerPool& pool) {
@@ -170,7 +181,7 @@ class TrackingRun {
 
   void TrackFrame(const hal::SensorCounters& counters, WorkerPool& pool) {
     const std::int64_t begin_ns = clock_.NowNs();
-    outputs_.Receive(begin_ns);
+    outputs_.Receive(CaptureNowNs(begin_ns));
     inputs_.Attach(frame_, console_);
     const std::int64_t shared_ns = clock_.NowNs() - begin_ns;
     const auto track = [this, &counters, shared_ns](std::size_t i) noexcept {

@@ -2,6 +2,7 @@
 #include "disflow/hal/mavlink/frame_decoder.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "disflow/saturating.h"
 
@@ -43,8 +44,7 @@ bool FrameDecoder::Next(FrameView& frame) noexcept {
       case Verdict::kIncomplete:
         return false;
       case Verdict::kGarbage:
-        AddSaturating(counters_.skipped_bytes);
-        ++begin_;
+        SkipToMagic();
         break;
       case Verdict::kFrame:
         AddSaturating(counters_.frames);
@@ -57,6 +57,17 @@ bool FrameDecoder::Next(FrameView& frame) noexcept {
     }
   }
   return false;
+}
+
+/// To the next byte that may begin a frame: most bytes on a shared link are of no use here.
+void FrameDecoder::SkipToMagic() noexcept {
+  const std::byte* const from = buffer_.data() + begin_;
+  const void* const found = std::memchr(from + 1, kMagic, end_ - begin_ - 1);
+  const std::size_t skipped =
+      found == nullptr ? end_ - begin_
+                       : static_cast<std::size_t>(static_cast<const std::byte*>(found) - from);
+  AddSaturating(counters_.skipped_bytes, static_cast<std::uint32_t>(skipped));
+  begin_ += skipped;
 }
 
 FrameDecoder::Verdict FrameDecoder::Examine(std::size_t& frame_size) noexcept {

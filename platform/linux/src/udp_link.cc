@@ -4,6 +4,8 @@
 #include <netdb.h>
 #include <netinet/in.h>
 
+#include <algorithm>
+#include <array>
 #include <cstring>
 #include <memory>
 
@@ -12,6 +14,9 @@
 
 namespace disflow::posix {
 namespace {
+
+/// Taken with one call of the system.
+constexpr std::size_t kMaxDatagrams = 64;
 
 using AddressList = std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)>;
 
@@ -65,6 +70,9 @@ hal::Fault Connect(const sockaddr_storage& peer, socklen_t peer_size,
   if (::setsockopt(fd.get(), SOL_SOCKET, SO_BROADCAST, &yes, sizeof(yes)) != 0) {
     return ErrnoFault(Status::kIoError, name, "cannot allow broadcast", errno);
   }
+  // Less is no reason to go without the link.
+  const int size = UdpLink::kReceiveBuffer_bytes;
+  (void)::setsockopt(fd.get(), SOL_SOCKET, SO_RCVBUF, &size, sizeof(size));
   if (address.bind_port != 0 && BindAny(fd.get(), peer.ss_family, address.bind_port) != 0) {
     if (errno == EADDRINUSE) {
       return hal::MakeFault(Status::kBusy,
@@ -150,18 +158,51 @@ hal::Fault UdpLink::DoSend(std::span<const std::byte> message) noexcept {
 
 Expected<std::size_t> UdpLink::DoReceive(std::span<std::byte> buffer) noexcept {
   if (!socket_.is_open()) return {0, Status::kNotOpen};
-  const ssize_t received = RetryOnSignal(
-      [&] { return ::recv(socket_.get(), buffer.data(), buffer.size(), MSG_DONTWAIT); });
-  if (received >= 0) {
-    const auto size = static_cast<std::size_t>(received);
-    AddSaturating(counters_.received_bytes, size);
-    return {size};
+  // Datagrams without a byte must not look like the end, nor hold the caller for ever.
+  constexpr int kEmptyTurns = 64;
+  for (int turn = 0; turn < kEmptyTurns; ++turn) {
+    unsigned datagrams = 0;
+    const Expected<std::size_t> received = ReceiveSome(buffer, datagrams);
+    if (!received.ok() || received.value > 0 || datagrams == 0) return received;
   }
-  if (errno == ECONNREFUSED) {
+  return {0};
+}
+
+Expected<std::size_t> UdpLink::ReceiveSome(std::span<std::byte> buffer,
+                                           unsigned& datagrams) noexcept {
+  std::array<iovec, kMaxDatagrams> rooms;
+  std::array<mmsghdr, kMaxDatagrams> messages;
+  const std::size_t count =
+      std::clamp<std::size_t>(buffer.size() / kMaxDatagramSize, 1, kMaxDatagrams);
+  const std::size_t room = std::min(buffer.size(), kMaxDatagramSize);
+  for (std::size_t i = 0; i < count; ++i) {
+    rooms[i] = {buffer.data() + i * room, room};
+    messages[i] = {};
+    messages[i].msg_hdr.msg_iov = &rooms[i];
+    messages[i].msg_hdr.msg_iovlen = 1;
+  }
+  const auto receive = [&] {
+    return ::recvmmsg(socket_.get(), messages.data(), static_cast<unsigned>(count), MSG_DONTWAIT,
+                      nullptr);
+  };
+  int received = RetryOnSignal(receive);
+  if (received < 0 && errno == ECONNREFUSED) {
+    // The answer to an earlier datagram of ours; what waits behind it is none the worse.
     AddSaturating(counters_.refused_messages);
-    return {0};
+    received = RetryOnSignal(receive);
   }
-  return {0, errno == EAGAIN ? Status::kOk : Status::kIoError};
+  if (received < 0) {
+    const bool nothing = errno == EAGAIN || errno == ECONNREFUSED;
+    return {0, nothing ? Status::kOk : Status::kIoError};
+  }
+  datagrams = static_cast<unsigned>(received);
+  std::size_t size = 0;
+  for (std::size_t i = 0; i < datagrams; ++i) {
+    std::memmove(buffer.data() + size, rooms[i].iov_base, messages[i].msg_len);
+    size += messages[i].msg_len;
+  }
+  AddSaturating(counters_.received_bytes, size);
+  return {size};
 }
 
 }  // namespace disflow::posix

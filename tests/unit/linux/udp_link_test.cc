@@ -9,6 +9,8 @@
 
 #include <cstring>
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include "byte_text.h"
 #include "eventually.h"
@@ -97,6 +99,57 @@ TEST(UdpLink, AnswerOfThePeer_IsReceived) {
   ASSERT_TRUE(peer.Reply("answer"));
   EXPECT_EQ(ReceivedText(link), "answer");
   EXPECT_EQ(link.counters().received_bytes, 6U);
+}
+
+TEST(UdpLink, DatagramsThatWait_AreTakenAtOnceInTheirOrder) {
+  Peer peer;
+  UdpLink link(AddressOf(Uri(peer.port())));
+  ASSERT_TRUE(link.Open().ok());
+  ASSERT_TRUE(link.Send(BytesOf("hello")).ok());
+  ASSERT_EQ(peer.Read(), "hello");
+  std::string expected;
+  for (int i = 0; i < 100; ++i) {
+    // Every third without a byte: it must not look like the end.
+    const std::string text = i % 3 == 0 ? "" : std::to_string(i) + ";";
+    ASSERT_TRUE(peer.Reply(text));
+    expected += text;
+  }
+  std::vector<std::byte> buffer(64 * UdpLink::kMaxDatagramSize);
+  std::string text;
+  int calls = 0;
+  for (;; ++calls) {
+    const auto size = link.Receive(buffer);
+    ASSERT_TRUE(size.ok());
+    if (size.value == 0) break;
+    text.append(reinterpret_cast<const char*>(buffer.data()), size.value);
+  }
+  EXPECT_EQ(text, expected);
+  EXPECT_EQ(calls, 2);
+}
+
+TEST(UdpLink, DatagramLongerThanItsRoom_LosesItsTailAndNotTheNext) {
+  Peer peer;
+  UdpLink link(AddressOf(Uri(peer.port())));
+  ASSERT_TRUE(link.Open().ok());
+  ASSERT_TRUE(link.Send(BytesOf("hello")).ok());
+  ASSERT_EQ(peer.Read(), "hello");
+  ASSERT_TRUE(peer.Reply(std::string(UdpLink::kMaxDatagramSize + 500, 'x')));
+  ASSERT_TRUE(peer.Reply("next"));
+  EXPECT_EQ(ReceivedText(link), std::string(UdpLink::kMaxDatagramSize, 'x') + "next");
+}
+
+TEST(UdpLink, RefusalOfThePeer_DoesNotHideWhatWaits) {
+  std::uint16_t port = 0;
+  std::optional<Peer> peer(std::in_place);
+  port = peer->port();
+  UdpLink link(AddressOf(Uri(port)));
+  ASSERT_TRUE(link.Open().ok());
+  ASSERT_TRUE(link.Send(BytesOf("hello")).ok());
+  ASSERT_EQ(peer->Read(), "hello");
+  ASSERT_TRUE(peer->Reply("answer"));
+  peer.reset();
+  ASSERT_TRUE(link.Send(BytesOf("nobody is there")).ok());
+  EXPECT_EQ(ReceivedText(link), "answer");
 }
 
 TEST(UdpLink, NameWithSeveralAddresses_PrefersIpv4) {

@@ -48,6 +48,7 @@ class FrameDecoder {
   enum class Verdict : std::uint8_t { kIncomplete, kGarbage, kFrame };
 
   [[nodiscard]] Verdict Examine(std::size_t& frame_size) noexcept;
+  void SkipToMagic() noexcept;
   [[nodiscard]] std::uint8_t At(std::size_t offset) const noexcept {
     return std::to_integer<std::uint8_t>(buffer_[begin_ + offset]);
   }

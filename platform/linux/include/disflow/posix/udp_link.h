@@ -3,6 +3,8 @@
 
 #include <sys/socket.h>
 
+#include <cstddef>
+#include <span>
 #include <string>
 
 #include "disflow/hal/byte_link.h"
@@ -19,6 +21,12 @@ namespace disflow::posix {
 /// error: what it refuses is counted.
 class UdpLink final : public hal::ByteLink {
  public:
+  /// Of what comes in: a full Ethernet frame, of which MAVLink fills a part.
+  static constexpr std::size_t kMaxDatagramSize = 2048;
+  /// What the system is asked to hold between two calls of Receive(), its own bookkeeping not
+  /// counted. It gives less where net.core.rmem_max says so.
+  static constexpr int kReceiveBuffer_bytes = 1 << 20;
+
   /// @param address Of kind kUdp.
   explicit UdpLink(const hal::LinkAddress& address);
 
@@ -26,10 +34,15 @@ class UdpLink final : public hal::ByteLink {
   hal::Fault DoOpen() noexcept override;
   void DoClose() noexcept override;
   hal::Fault DoSend(std::span<const std::byte> message) noexcept override;
-  /// A datagram that is longer than `buffer` loses its tail.
+  /// One call takes as many datagrams as `buffer` has room for at kMaxDatagramSize each, one
+  /// behind the other; a datagram that is longer than that, or than a shorter `buffer`, loses its
+  /// tail.
   Expected<std::size_t> DoReceive(std::span<std::byte> buffer) noexcept override;
   [[nodiscard]] const char* DoName() const noexcept override { return name_.c_str(); }
   [[nodiscard]] hal::LinkCounters DoCounters() const noexcept override { return counters_; }
+
+  [[nodiscard]] Expected<std::size_t> ReceiveSome(std::span<std::byte> buffer,
+                                                  unsigned& datagrams) noexcept;
 
   hal::LinkAddress address_;
   std::string name_;
