@@ -2,6 +2,7 @@
 #include "disflow/hal/sender_clock.h"
 
 #include <algorithm>
+#include <cstdlib>
 
 namespace disflow::hal {
 namespace {

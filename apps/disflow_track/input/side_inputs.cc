@@ -10,6 +10,8 @@ namespace {
 
 /// By how much the clock of another machine may be ahead although both are kept in step.
 constexpr std::int64_t kMaxLead_ns = 50'000'000;
+/// Some nodes of ROS date a transform to when it ceases to hold.
+constexpr std::int64_t kMaxTfLead_ns = 1'000'000'000;
 
 hal::CameraPoseHistory::Settings PoseSettings(const CameraPoseOptions& options, bool live) {
   // Optical axes (right, down, forward) in a body's (forward, right, down).
@@ -20,7 +22,7 @@ hal::CameraPoseHistory::Settings PoseSettings(const CameraPoseOptions& options, 
   const Transform<hal::Body, Camera, double> T_bc(
       q, Mat<double, 3>(numbers[0], numbers[1], numbers[2]));
   hal::CameraPoseHistory::Settings settings{.T_bc = T_bc.Cast<float>()};
-  // Nobody knows where the carrier will be. What is sent to a replay may come at any pace.
+  // Nobody knows where the carrier will be; but what is sent to a replay may come at any pace.
   if (live) settings.max_lead_ns = kMaxLead_ns;
   return settings;
 }
@@ -58,7 +60,9 @@ SideInputs::SideInputs(const Options& options, const hal::SensorInfo& sensor) {
   }
   if (!address.world_frame.empty()) {
     // tf leads to the optical frame itself.
-    poses_.emplace(hal::CameraPoseHistory::Settings{});
+    hal::CameraPoseHistory::Settings settings;
+    if (sensor.live) settings.max_lead_ns = kMaxTfLead_ns;
+    poses_.emplace(settings);
     pose_mailbox_.emplace();
   }
 }
