@@ -2,7 +2,6 @@
 #include "disflow/hal/sender_clock.h"
 
 #include <algorithm>
-#include <cstdlib>
 
 namespace disflow::hal {
 namespace {
@@ -12,6 +11,10 @@ constexpr std::int64_t kClockDrift = 10'000;
 /// How long a message that was quicker than all others waits for one that bears it out.
 constexpr std::int64_t kQuickerWaits_ns = 10'000'000'000;
 constexpr int kRivalMessages = 3;
+
+constexpr bool IsWithin(std::int64_t difference_ns, std::int64_t limit_ns) noexcept {
+  return difference_ns <= limit_ns && difference_ns >= -limit_ns;
+}
 
 }  // namespace
 
@@ -23,7 +26,7 @@ Expected<StampNs> SenderClock::ToOwn(std::int64_t sender_ns, std::int64_t now_ns
     aged_at_ns_ = now_ns;
   }
   Age(now_ns);
-  const bool fits = std::abs(offset_ns - offset_ns_) <= kTolerance_ns;
+  const bool fits = IsWithin(offset_ns - offset_ns_, kTolerance_ns);
   if (fits) {
     rival_ = {};
     if (offset_ns < offset_ns_) TakeQuicker(offset_ns, now_ns);
@@ -53,7 +56,7 @@ void SenderClock::TakeQuicker(std::int64_t offset_ns, std::int64_t now_ns) noexc
 }
 
 bool SenderClock::RivalWins(std::int64_t offset_ns, std::int64_t now_ns) noexcept {
-  const bool agrees = rival_.messages > 0 && std::abs(offset_ns - rival_.offset_ns) <= kMaxLate_ns;
+  const bool agrees = rival_.messages > 0 && IsWithin(offset_ns - rival_.offset_ns, kMaxLate_ns);
   if (!agrees) {
     // A wrong stamp in the midst of a rival must not cost it what it has shown; two would.
     if (rival_.messages > 1 && !rival_.missed) {
