@@ -3,8 +3,9 @@
 
 #include <cstdint>
 
+#include "disflow/field/facet_pool.h"
 #include "disflow/field/local_gp.h"
-#include "disflow/field/octree.h"
+#include "disflow/field/octree_cell.h"
 #include "disflow/field/sample_list.h"
 
 namespace disflow {
