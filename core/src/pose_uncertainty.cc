@@ -42,7 +42,7 @@ float GeometricMeanVariance(const Mat3& covariance) noexcept {
 }  // namespace
 
 PoseUncertainty FindPoseUncertainty(const RegistrationInformation& information,
-                                    float gradient_std) noexcept {
+                                    float least_gradient_std) noexcept {
   PoseUncertainty result;
   const Eigen::LLT<Mat6> cholesky(WithFloor(information.total));
   if (cholesky.info() != Eigen::Success || !information.total.allFinite()) return result;
@@ -52,7 +52,9 @@ PoseUncertainty FindPoseUncertainty(const RegistrationInformation& information,
 
   // In coordinates in which H is the identity. One column at a time: Eigen's solve for several
   // refers to malloc.
-  const Mat6 across = (gradient_std * gradient_std) * information.across;
+  const float gradient_variance_rad2 =
+      least_gradient_std * least_gradient_std + information.gradient_variance_rad2;
+  const Mat6 across = gradient_variance_rad2 * information.across;
   Mat6 half;
   for (int i = 0; i < 6; ++i) half.col(i) = lower.solve(Vec6(across.col(i)));
   Mat6 apparent;

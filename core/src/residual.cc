@@ -33,6 +33,10 @@ float ResidualSums::mean_generation() const noexcept {
   return weighted_generation / std::fmax(weight, kNoWeight);
 }
 
+float ResidualSums::mean_tilt_rad2() const noexcept {
+  return information > 0.0F ? std::fmax(informed_tilt_rad2 / information, 0.0F) : 0.0F;
+}
+
 float ResidualSums::rms_m() const noexcept {
   return std::sqrt(weighted_square_m2 / std::fmax(weight, kNoWeight));
 }
@@ -68,6 +72,8 @@ void ResidualSums::Add(const Residual& residual, const ResidualWeighting& weight
   weighted_square_m2 += robust * residual_m * residual_m;
   weight += robust;
   weighted_generation += robust * residual.generation;
+  information += row_weight;
+  informed_tilt_rad2 += row_weight * residual.tilt_rad2;
   if (robust > kInlierWeight) ++inliers;
 }
 

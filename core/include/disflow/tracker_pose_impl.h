@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
 #include "disflow/field/fast_math.h"
 #include "disflow/flow/model_agreement.h"
 #include "disflow/flow/pose_search.h"

@@ -67,6 +67,19 @@ TEST(PoseUncertainty, TurnOfACan_IsUnobservedThoughGradientsSeemToTellIt) {
   for (int i = 3; i < 5; ++i) EXPECT_LT(Std(uncertainty.covariance, i), 5e-3F) << i;
 }
 
+TEST(PoseUncertainty, ErrorThatTheFrameShows_CountsLikeOneThatIsKnown) {
+  RegistrationInformation information = SeenBody(0.02F);
+  const PoseUncertainty known = FindPoseUncertainty(information, kGradientStd_rad);
+  EXPECT_TRUE(FindPoseUncertainty(information, 0.0F).IsComplete());
+  information.gradient_variance_rad2 = kGradientStd_rad * kGradientStd_rad;
+  const PoseUncertainty shown = FindPoseUncertainty(information, 0.0F);
+  EXPECT_FALSE(shown.IsComplete());
+  EXPECT_LT((shown.covariance - known.covariance).norm(), 1e-4F * known.covariance.norm());
+  // Both together are more.
+  const PoseUncertainty both = FindPoseUncertainty(information, kGradientStd_rad);
+  EXPECT_GT(Std(both.covariance, 3), Std(known.covariance, 3));
+}
+
 TEST(PoseUncertainty, TurnOfAnOvalBody_IsObservedAndHardlyTouched) {
   const RegistrationInformation information = SeenBody(0.02F, 0.3F);
   const PoseUncertainty without = FindPoseUncertainty(information, 0.0F);

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <memory>
+#include <random>
 
 #include "model_builder.h"
 
@@ -53,7 +55,8 @@ class Seen {
     config_.temporal_std_rad = 10.0F;
   }
 
-  void Look(unsigned seed, float noise_m = kNoise_m) {
+  /// @param unstated_tilt_rad Noise of the normals, per component, that the samples do not state.
+  void Look(unsigned seed, float noise_m = kNoise_m, float unstated_tilt_rad = 0.0F) {
     Observing observing;
     observing.noise_m = noise_m;
     observing.normal_noise = 0.02F;
@@ -64,6 +67,9 @@ class Seen {
       const Vec3 to_eye_m = T_oc_.translation() - point.position_m;
       if (point.normal.dot(to_eye_m) < 0.3F * to_eye_m.norm()) continue;
       SurfaceSample sample = Observe(point, observing, random);
+      std::normal_distribution<float> tilt(0.0F, std::max(unstated_tilt_rad, 1e-9F));
+      const Vec3 tilted = sample.normal + Vec3(tilt(random), tilt(random), tilt(random));
+      sample.normal = tilted.normalized();
       sample.position_m = T_oc_.Inverse() * sample.position_m;
       sample.normal = T_oc_.rotation().transpose() * sample.normal;
       (void)samples_.push_back(sample);
@@ -446,6 +452,26 @@ TEST(Registration, OtherObjectAxes_TurnTheInformation) {
   const Mat6 across = both * a.information.across * both.transpose();
   EXPECT_LT((b.information.across - across).norm(), 0.02F * across.norm());
   EXPECT_LT((permuted * a.center_m - b.center_m).norm(), 1e-4F);
+}
+
+TEST(Registration, NormalsAsNoisyAsTheyState_ShowNoErrorOfTheGradients) {
+  Seen seen(OddBox(), InView());
+  seen.Look(1);
+  const auto result = seen.Align(seen.T_oc());
+  ASSERT_TRUE(result.solved);
+  EXPECT_LT(std::sqrt(result.information.gradient_variance_rad2), 0.01F);
+}
+
+TEST(Registration, NormalsOffTheModels_ShowTheErrorOfItsGradients) {
+  Seen seen(OddBox(), InView());
+  for (const float tilt_rad : {0.05F, 0.1F, 0.2F}) {
+    seen.Look(1, kNoise_m, tilt_rad);
+    const auto result = seen.Align(seen.T_oc());
+    ASSERT_TRUE(result.solved);
+    // A quarter of what is seen: the rest is the frame's own.
+    EXPECT_NEAR(std::sqrt(result.information.gradient_variance_rad2), 0.5F * tilt_rad,
+                0.1F * tilt_rad);
+  }
 }
 
 TEST(Registration, TruePose_ScoresHighest) {

@@ -14,6 +14,8 @@ struct RegistrationInformation {
   /// What the samples would contribute to H if their gradients pointed anywhere across the true
   /// ones, per squared radian that they are off.
   Mat6 across = Mat6::Zero();
+  /// How far they are off, as the normals of this frame's samples show it [rad^2].
+  float gradient_variance_rad2 = 0.0F;
 };
 
 /// How well one registration knows the pose.
@@ -31,9 +33,9 @@ struct PoseUncertainty {
 /// angle looks as if a can's side told a rotation about the can's axis. What such errors explain is
 /// taken off the information; directions of which they explain half and more count as unobserved.
 /// Fuller, "Measurement Error Models", section 1.2.
-/// @param gradient_std Error of the field's gradients, rad.
+/// @param least_gradient_std Error of the field's gradients where the frame shows none, rad.
 [[nodiscard]] PoseUncertainty FindPoseUncertainty(const RegistrationInformation& information,
-                                                  float gradient_std) noexcept;
+                                                  float least_gradient_std) noexcept;
 
 /// Adds the drift of the model: errors of earlier poses are built into the surface that later ones
 /// are registered to, whichever direction they had then.

@@ -41,6 +41,9 @@ struct Residual {
   float variance_m2 = 0.0F;  ///< Of d: observation and model together.
   float per_radius = 0.0F;   ///< Derivative of d by the radius of the object's edges.
   float generation = 0.0F;   ///< Of the piece of surface, see Cluster.
+  /// Squared angle between the observation's normal and grad d, per component, less what the
+  /// observation's own noise explains [rad^2].
+  float tilt_rad2 = 0.0F;
 };
 
 /// How the residuals of one kind are weighted in one step (section V-E and additions to the paper).
@@ -60,8 +63,12 @@ struct ResidualSums {
   float weight = 0.0F;
   float weighted_square_m2 = 0.0F;
   float weighted_generation = 0.0F;
+  /// With the weights in the normal equations.
+  float information = 0.0F;
+  float informed_tilt_rad2 = 0.0F;
 
   [[nodiscard]] float mean_generation() const noexcept;
+  [[nodiscard]] float mean_tilt_rad2() const noexcept;  ///< Not negative.
   [[nodiscard]] float rms_m() const noexcept;
   /// Gates one residual, weights it, and adds it to the normal equations and to these sums.
   /// @param center_m Centre of rotation, object frame.

@@ -33,8 +33,8 @@ class SurfaceResiduals {
     const SurfaceSample& sample = samples_[i];
     Residual residual;
     residual.point_m = T_oc * sample.position_m;
-    const FieldMatch match =
-        Match(i, residual.point_m, T_oc.rotation() * sample.normal, scale_m, reuse);
+    const Vec3 normal = T_oc.rotation() * sample.normal;
+    const FieldMatch match = Match(i, residual.point_m, normal, scale_m, reuse);
     if (!match.found) {
       residual.status =
           match.normal_mismatch ? ResidualStatus::kNormalMismatch : ResidualStatus::kUnmatched;
@@ -46,6 +46,8 @@ class SurfaceResiduals {
     residual.distance_m = match.distance_m;
     residual.variance_m2 = sample.variance_m2 + match.variance_m2;
     residual.generation = match.generation;
+    const Vec3 tilt = match.gradient / residual.gradient_norm - normal;
+    residual.tilt_rad2 = 0.5F * tilt.squaredNorm() - sample.normal_variance;
     return residual;
   }
 
