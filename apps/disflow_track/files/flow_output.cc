@@ -22,7 +22,7 @@ FlowOutput::FlowOutput(const std::string& folder) : folder_(folder) {
 void FlowOutput::Write(std::int64_t frame, const Estimate& estimate) {
   char name[32];
   (void)std::snprintf(name, sizeof(name), "/%06lld.ply", static_cast<long long>(frame));
-  AtomicFile(folder_ + name).Commit(cloud_.FormatPly(estimate));
+  ReplaceFile(folder_ + name, cloud_.FormatPly(estimate));
   ++files_;
 }
 

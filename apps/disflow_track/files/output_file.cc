@@ -97,24 +97,32 @@ bool RecordFile::Append(std::string_view record) noexcept {
   return false;
 }
 
+void ReplaceFile(const std::string& path, std::string_view contents) {
+  const std::string part = PartPath(path);
+  const posix::FileDescriptor file = Create(part, path);
+  int error = WriteAll(file.get(), contents);
+  if (error == 0 && std::rename(part.c_str(), path.c_str()) != 0) error = errno;
+  if (error == 0) return;
+  (void)::unlink(part.c_str());
+  Fail(path, error);
+}
+
 AtomicFile::AtomicFile(const std::string& path) : path_(path) {
   const mode_t kind = KindOf(path);
   if (kind == S_IFDIR) Fail(path, EISDIR);
-  if (kind == 0 || kind == S_IFREG) part_path_ = PartPath(path);
-  file_ = Create(part_path_.empty() ? path_ : part_path_, path_);
-}
-
-AtomicFile::~AtomicFile() {
-  if (file_.is_open() && !part_path_.empty()) (void)::unlink(part_path_.c_str());
+  if (kind != 0 && kind != S_IFREG) {
+    stream_ = Create(path, path);
+    return;
+  }
+  (void)Create(PartPath(path), path);
+  (void)::unlink(PartPath(path).c_str());
 }
 
 void AtomicFile::Commit(std::string_view contents) {
-  int error = WriteAll(file_.get(), contents);
-  if (error == 0 && !part_path_.empty() && std::rename(part_path_.c_str(), path_.c_str()) != 0) {
-    error = errno;
-  }
+  if (!stream_.is_open()) return ReplaceFile(path_, contents);
+  const int error = WriteAll(stream_.get(), contents);
   if (error != 0) Fail(path_, error);
-  file_.Reset();
+  stream_.Reset();
 }
 
 }  // namespace disflow::apps

@@ -29,26 +29,27 @@ class RecordFile {
   int error_ = 0;
 };
 
-/// Where an AtomicFile is written until it is committed.
+/// Where an AtomicFile is written while it is committed.
 [[nodiscard]] inline std::string PartPath(const std::string& path) { return path + ".part"; }
 
+/// Makes or replaces a regular file; it appears, whole, or not at all.
+/// @throws Failure kOutputFailed; nothing is left behind then.
+void ReplaceFile(const std::string& path, std::string_view contents);
+
 /// A file that appears, whole, only when it is committed; what stood at the path before stays until
-/// then.
+/// then. It has no part on disk before that: whatever ends the run leaves nothing behind, unless it
+/// strikes while the file is committed. The next one at the same path takes that over.
 class AtomicFile {
  public:
   /// Makes sure that the file can be written. @throws Failure kOutputFailed.
   explicit AtomicFile(const std::string& path);
-  AtomicFile(const AtomicFile&) = delete;
-  AtomicFile& operator=(const AtomicFile&) = delete;
-  ~AtomicFile();
 
-  /// @throws Failure kOutputFailed.
+  /// @throws Failure kOutputFailed; nothing is left behind then.
   void Commit(std::string_view contents);
 
  private:
   std::string path_;
-  std::string part_path_;  ///< Empty where the path is a device or pipe.
-  posix::FileDescriptor file_;
+  posix::FileDescriptor stream_;  ///< Open if the path is a device or pipe, which has no part.
 };
 
 }  // namespace disflow::apps

@@ -27,6 +27,7 @@ void InstallStopSignals() noexcept {
   (void)::sigaction(SIGTERM, &action, nullptr);
   (void)::sigaction(SIGHUP, &action, nullptr);
   (void)std::signal(SIGPIPE, SIG_IGN);
+  (void)std::signal(SIGXFSZ, SIG_IGN);
 }
 
 bool StopRequested() noexcept { return stop_requested != 0; }

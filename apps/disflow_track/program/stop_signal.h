@@ -4,7 +4,8 @@
 namespace disflow::apps {
 
 /// SIGINT, SIGTERM and SIGHUP ask for a clean stop; the second one ends the program at once.
-/// SIGPIPE is ignored: a reader that went away is an output error like any other.
+/// SIGPIPE and SIGXFSZ are ignored: a reader that went away and a file that may not grow further
+/// are output errors like any other.
 void InstallStopSignals() noexcept;
 
 [[nodiscard]] bool StopRequested() noexcept;

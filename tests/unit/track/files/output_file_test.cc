@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <thread>
 
+#include "file_size_limit.h"
 #include "program/exit_status.h"
 #include "scratch_folder.h"
 
@@ -41,6 +42,36 @@ TEST_F(OutputFileTest, AtomicFileNotCommitted_LeavesNothingBehind) {
   EXPECT_EQ(Files(), 0);
   test::WriteFile(Path("mesh"), "earlier");
   { const AtomicFile file(Path("mesh")); }
+  EXPECT_EQ(test::ReadFile(Path("mesh")), "earlier");
+  EXPECT_EQ(Files(), 1);
+}
+
+TEST_F(OutputFileTest, AtomicFile_HasNoPartOnDiskBeforeItIsCommitted) {
+  AtomicFile file(Path("mesh"));
+  EXPECT_EQ(Files(), 0) << "a kill would leave it behind";
+  file.Commit("new");
+  EXPECT_EQ(test::ReadFile(Path("mesh")), "new");
+}
+
+TEST_F(OutputFileTest, PartThatAKilledRunLeft_IsTakenOver) {
+  test::WriteFile(Path("mesh.part"), "much longer than what comes");
+  AtomicFile(Path("mesh")).Commit("new");
+  EXPECT_EQ(test::ReadFile(Path("mesh")), "new");
+  EXPECT_EQ(Files(), 1);
+
+  test::WriteFile(Path("mesh.part"), "left again");
+  { const AtomicFile file(Path("mesh")); }
+  EXPECT_EQ(Files(), 1) << "though nothing is written this time";
+}
+
+TEST_F(OutputFileTest, AtomicFileThatFindsNoRoom_LeavesTheEarlierOneAndNoPart) {
+  (void)::signal(SIGXFSZ, SIG_IGN);  // as the program does
+  test::WriteFile(Path("mesh"), "earlier");
+  AtomicFile file(Path("mesh"));
+  {
+    const test::FileSizeLimit limit(1000);
+    EXPECT_THROW(file.Commit(std::string(2000, 'x')), Failure);
+  }
   EXPECT_EQ(test::ReadFile(Path("mesh")), "earlier");
   EXPECT_EQ(Files(), 1);
 }
