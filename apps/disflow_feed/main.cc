@@ -96,6 +96,7 @@ int Feed(const Arguments& arguments, hal::ByteLink& link) {
   if (!fault.ok()) {
     return Fail(fault, fault.status == Status::kInvalidUri ? kWrongUsage : kInputFailed);
   }
+  if (!sensor.note().empty()) std::fprintf(stderr, "disflow_feed: %s\n", sensor.note().c_str());
   if (!arguments.csv.empty()) fault = csv.Open(arguments.csv);
   if (fault.ok()) fault = link.Open();
   if (fault.ok()) fault = board.WaitUntilReady(kHello_ns);

@@ -27,13 +27,16 @@ void Outputs::Deliver(std::span<const FrameResult> results, const DepthFrame* fr
   if (!recording_ || frame == nullptr) return;
   const hal::Fault fault = Record(*frame);
   if (fault.ok()) return;
-  Fail(std::string(fault.message) + "; nothing more is recorded");
+  Fail(std::string(fault.message) + "; nothing more is recorded after " +
+       std::to_string(recording_->frame_count()) + " frames");
   recording_.reset();
 }
 
 hal::Fault Outputs::Record(const DepthFrame& frame) {
-  const hal::Fault fault = recording_->AddFrame(frame);
-  return fault.ok() && frame.mask.given() ? recording_->AddMask("gt", frame.mask) : fault;
+  hal::Fault fault = recording_->AddFrame(frame);
+  if (fault.ok() && frame.mask.given()) fault = recording_->AddMask("gt", frame.mask);
+  // At once: the next frame may never come.
+  return fault.ok() ? recording_->CompleteFrame() : fault;
 }
 
 void Outputs::WriteFlow(const TrackedObjects& objects, std::span<const FrameResult> results) {

@@ -78,6 +78,7 @@ class TrackingRun {
         reports_(options.objects.size()) {}
 
   [[nodiscard]] ExitStatus Run() {
+    if (!sensor_.note().empty()) console_.Say(sensor_.note());
     const std::int64_t begin_ns = clock_.NowNs();
     ExitStatus status = kDone;
     try {

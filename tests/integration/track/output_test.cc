@@ -3,11 +3,9 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/ioctl.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <string>
@@ -15,7 +13,9 @@
 #include <vector>
 
 #include "child_process.h"
+#include "endless_run.h"
 #include "estimate_csv.h"
+#include "file_size_limit.h"
 #include "model_file.h"
 #include "ply_file.h"
 #include "scratch_folder.h"
@@ -25,21 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Long enough that it never ends by itself during a test.
-constexpr const char* kEndlessSensor = "sim:bottle?frames=30000";
-
-class OutputTest : public ScratchFolderTest {
- protected:
-  /// Waits until a running program has written some lines.
-  void AwaitLines(const std::string& file, std::ptrdiff_t lines) const {
-    for (int i = 0; i < 3000; ++i) {
-      const std::string text = ReadFile(file);
-      if (std::count(text.begin(), text.end(), '\n') >= lines) return;
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-    FAIL() << file << " does not grow";
-  }
-};
+using OutputTest = ScratchFolderTest;
 
 class StopSignal : public OutputTest, public testing::WithParamInterface<int> {};
 
@@ -156,22 +142,6 @@ TEST_F(PipeTest, ReaderThatGoesAway_IsSaidAndTheOtherOutputsAreComplete) {
       << outcome.err;
   EXPECT_FALSE(apps::LoadPly(Path("run.ply")).vertices.empty());
 }
-
-/// Limits the size of the files that programs started meanwhile may write, as a full disk would.
-class FileSizeLimit {
- public:
-  explicit FileSizeLimit(rlim_t bytes) {
-    (void)::signal(SIGXFSZ, SIG_IGN);  // inherited: writing then fails with EFBIG
-    (void)::getrlimit(RLIMIT_FSIZE, &before_);
-    rlimit limit = before_;
-    limit.rlim_cur = bytes;
-    (void)::setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~FileSizeLimit() { (void)::setrlimit(RLIMIT_FSIZE, &before_); }
-
- private:
-  rlimit before_{};
-};
 
 TEST_F(OutputTest, DiskFullWhileRunning_KeepsWholeRowsAndSaysSo) {
   Outcome outcome;

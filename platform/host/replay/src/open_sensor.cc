@@ -14,7 +14,10 @@ using hal::MakeFault;
 Fault OpenReplay(const Uri& uri, Sensor& sensor) {
   ReplayOptions options;
   if (const Fault fault = ParseReplayUri(uri, options); !fault.ok()) return fault;
-  return sensor.Emplace<ReplaySensor>(options).Open();
+  auto& replay = sensor.Emplace<ReplaySensor>(options);
+  const Fault fault = replay.Open();
+  sensor.set_note(replay.note());
+  return fault;
 }
 
 Fault OpenSimulation(const Uri& uri, Sensor& sensor) {

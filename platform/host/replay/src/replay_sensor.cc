@@ -163,6 +163,8 @@ ReplaySensor::~ReplaySensor() = default;
 
 int ReplaySensor::held_masks() const { return state_->held_masks; }
 
+const std::string& ReplaySensor::note() const { return state_->index.cut_note; }
+
 Fault ReplaySensor::DoOpen() noexcept try {
   State& state = *state_;
   if (state.open) return {};

@@ -5,8 +5,10 @@
 #include <charconv>
 #include <map>
 #include <set>
+#include <string>
 #include <system_error>
 
+#include "cut_recording.h"
 #include "disflow/host/sequence_layout.h"
 #include "numbered_files.h"
 #include "text_table.h"
@@ -85,21 +87,26 @@ void ListByFiles(const std::vector<NumberedFile>& files, std::vector<RecordedFra
   }
 }
 
+bool ParseLine(const TableRow& row, RecordedFrame& frame) {
+  return row.fields.size() >= 2 && ParseIndex(row.fields[0], frame.number) &&
+         ParseStamp(row.fields[1], frame.stamp_ns);
+}
+
 /// One frame per line of data.txt. An image that is listed and not there is a frame all the same,
 /// so that its loss is seen when it is read.
 hal::Fault ListByStamps(const fs::path& path, const std::vector<NumberedFile>& files,
-                        std::vector<RecordedFrame>& frames) {
+                        SequenceIndex& index) {
   TextTable table;
   const hal::Fault fault = table.Read(path);
   if (!fault.ok()) return fault;
   std::map<std::uint64_t, const NumberedFile*> missing_line;
   for (const NumberedFile& file : files) missing_line[file.number] = &file;
+  const bool is_cut = EndsWithinItsLastLine(table);
   for (const TableRow& row : table.rows()) {
-    RecordedFrame& frame = frames.emplace_back();
-    if (row.fields.size() < 2 || !ParseIndex(row.fields[0], frame.number) ||
-        !ParseStamp(row.fields[1], frame.stamp_ns)) {
+    if (is_cut && &row == &table.rows().back()) break;
+    RecordedFrame& frame = index.frames.emplace_back();
+    if (!ParseLine(row, frame))
       return table.LineFault(row, "an image number and a stamp in seconds are needed");
-    }
     const auto found = missing_line.find(frame.number);
     if (found != missing_line.end()) {
       frame.depth = found->second->path;
@@ -110,9 +117,10 @@ hal::Fault ListByStamps(const fs::path& path, const std::vector<NumberedFile>& f
                                                   example.path.extension().string());
     }
   }
-  if (missing_line.empty()) return {};
-  return hal::MakeFault(Status::kCorrupt, "%s: has no line for %s", path.c_str(),
-                        missing_line.begin()->second->path.c_str());
+  std::vector<NumberedFile> unlisted;
+  for (const auto& [number, file] : missing_line) unlisted.push_back(*file);
+  if (unlisted.empty() && is_cut) LeaveOut(path.string() + " ends within a line", index);
+  return LeaveOutUnlisted(path, unlisted, index);
 }
 
 std::string ListMaskSets(const fs::path& masks) {
@@ -163,6 +171,17 @@ hal::Fault ChooseObjects(const fs::path& folder, const std::vector<NumberedFile>
                         folder.c_str(), list.c_str());
 }
 
+/// Whether there is a file of a frame. With a recording that was cut short there may be none: its
+/// first mask was that of the frame that is left out.
+bool AnyOfFrames(const std::vector<NumberedFile>& files, const SequenceIndex& index) {
+  if (index.cut_frames == 0) return true;
+  std::set<std::uint64_t> numbers;
+  for (const RecordedFrame& frame : index.frames) numbers.insert(frame.number);
+  return std::any_of(files.begin(), files.end(), [&numbers](const NumberedFile& file) {
+    return numbers.contains(file.number);
+  });
+}
+
 hal::Fault FindMasks(const ReplayOptions& options, SequenceIndex& index) {
   const fs::path masks = options.dir / kMaskFolder;
   const fs::path folder = masks / (options.mask_set.empty() ? "gt" : options.mask_set);
@@ -170,6 +189,7 @@ hal::Fault FindMasks(const ReplayOptions& options, SequenceIndex& index) {
   std::vector<NumberedFile> files;
   hal::Fault fault = ListNumberedFiles(folder, kImageExtension, files);
   if (!fault.ok()) return fault;
+  if (options.mask_set.empty() && !AnyOfFrames(files, index)) return {};
   if (files.empty()) {
     return hal::MakeFault(Status::kNotFound, "%s: holds no masks; available: %s", folder.c_str(),
                           ListMaskSets(masks).c_str());
@@ -229,9 +249,14 @@ hal::Fault IndexSequence(const ReplayOptions& options, SequenceIndex& index) {
                            options.dir.c_str());
   }
   if (fault.ok() && fs::exists(options.dir / kDataFile)) {
-    fault = ListByStamps(options.dir / kDataFile, files, index.frames);
+    fault = ListByStamps(options.dir / kDataFile, files, index);
   } else if (fault.ok()) {
     ListByFiles(files, index.frames);
+  }
+  if (fault.ok() && index.float_depth) LeaveOutCutDepth(index);
+  if (fault.ok() && index.cut_frames > 0) {
+    index.cut_note = options.dir.string() + ": the recording was cut short and ends with frame " +
+                     std::to_string(index.frames.back().number) + "; left out: " + index.cut_note;
   }
   if (fault.ok()) fault = FindMasks(options, index);
   if (fault.ok()) fault = ReadWorldPoses(options, index);

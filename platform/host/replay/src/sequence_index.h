@@ -29,6 +29,9 @@ struct SequenceIndex {
   int masked_objects = 0;    ///< 0: there are no masks.
   bool has_T_wc = false;
   std::vector<RecordedFrame> frames;  ///< Never empty after success.
+  /// Frames at the end that are not whole and left out, since the recording was cut short.
+  std::size_t cut_frames = 0;
+  std::string cut_note;  ///< Says so and why; empty if nothing is left out.
 };
 
 /// Detects the layout and lists the images. Checks all of the small files.

@@ -26,6 +26,8 @@ class TextTable {
   /// @return kNotFound, kCorrupt (absurdly large) or kIoError, naming the file.
   [[nodiscard]] hal::Fault Read(const std::filesystem::path& file);
   [[nodiscard]] const std::vector<TableRow>& rows() const { return rows_; }
+  /// Whether the last line has its line feed. Without, it may have been cut.
+  [[nodiscard]] bool ends_with_line_feed() const { return text_.ends_with('\n'); }
 
   /// The first `count` fields of a row as finite numbers.
   [[nodiscard]] hal::Fault ParseNumbers(const TableRow& row, std::size_t count,

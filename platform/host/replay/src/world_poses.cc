@@ -22,11 +22,14 @@ hal::Fault CountFault(const fs::path& path, std::size_t count, std::size_t image
 }
 
 /// `x y z nx ny nz theta` per line.
-hal::Fault ReadAxisAnglePoses(const fs::path& file, std::vector<RecordedFrame>& frames) {
+hal::Fault ReadAxisAnglePoses(const fs::path& file, SequenceIndex& index) {
+  std::vector<RecordedFrame>& frames = index.frames;
   TextTable table;
   hal::Fault fault = table.Read(file);
   if (!fault.ok()) return fault;
-  if (table.rows().size() != frames.size()) {
+  // Frames that were cut short may have theirs already.
+  if (table.rows().size() < frames.size() ||
+      table.rows().size() > frames.size() + index.cut_frames) {
     return CountFault(file, table.rows().size(), frames.size());
   }
   std::vector<double> n;
@@ -95,7 +98,7 @@ hal::Fault ReadWorldPoses(const ReplayOptions& options, SequenceIndex& index) {
   }
   if (options.world_poses == WorldPoses::kNone || !fs::exists(file)) return {};
   index.has_T_wc = true;
-  return ReadAxisAnglePoses(file, index.frames);
+  return ReadAxisAnglePoses(file, index);
 }
 
 }  // namespace disflow::host

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "disflow/host/image_limits.h"
+#include "file_output.h"
 
 namespace disflow::host {
 namespace {
@@ -129,15 +130,25 @@ bool EncodePng(std::FILE* file, const Raster& raster, PngError& error) {
   return true;
 }
 
+/// @param png Empty after an error, whose text is in `error`.
+void EncodePng(const Raster& raster, std::string& png, PngError& error) {
+  char* bytes = nullptr;
+  std::size_t size = 0;
+  FilePointer memory(::open_memstream(&bytes, &size));
+  const bool encoded = memory != nullptr && EncodePng(memory.get(), raster, error);
+  memory.reset();
+  png.clear();
+  if (encoded) png.assign(bytes, size);
+  std::free(bytes);
+}
+
 hal::Fault WritePng(const fs::path& path, const Raster& raster) {
-  FilePointer file(std::fopen(path.c_str(), "wb"));
-  if (file == nullptr) return OpenFault(path);
+  std::string png;
   PngError error;
-  bool written = EncodePng(file.get(), raster, error);
-  written = std::fclose(file.release()) == 0 && written;
-  if (written) return {};
+  EncodePng(raster, png, error);
+  if (!png.empty()) return WriteWholeFile(path, png);
   return hal::MakeFault(Status::kIoError, "%s: cannot be written: %s", path.c_str(),
-                        error.text[0] != '\0' ? error.text : std::strerror(errno));
+                        error.text[0] != '\0' ? error.text : "out of memory");
 }
 
 }  // namespace
@@ -180,18 +191,11 @@ hal::Fault WriteGray16Png(const fs::path& file, std::span<const std::uint16_t> p
 }
 
 std::string EncodeRgbPng(std::span<const std::uint8_t> pixels, int width_px, int height_px) {
-  char* bytes = nullptr;
-  std::size_t size = 0;
-  FilePointer memory(::open_memstream(&bytes, &size));
-  PngError error;
-  const bool encoded = memory != nullptr && EncodePng(memory.get(),
-                                                      {pixels.data(), std::ptrdiff_t{3} * width_px,
-                                                       width_px, height_px, PNG_COLOR_TYPE_RGB, 8},
-                                                      error);
-  memory.reset();
   std::string png;
-  if (encoded) png.assign(bytes, size);
-  std::free(bytes);
+  PngError error;
+  EncodePng(
+      {pixels.data(), std::ptrdiff_t{3} * width_px, width_px, height_px, PNG_COLOR_TYPE_RGB, 8},
+      png, error);
   return png;
 }
 

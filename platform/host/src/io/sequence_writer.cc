@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cerrno>
 #include <cinttypes>
 #include <cstring>
 #include <nlohmann/json.hpp>
@@ -12,16 +11,12 @@
 
 #include "disflow/host/png_image.h"
 #include "disflow/host/sequence_layout.h"
+#include "file_output.h"
 
 namespace disflow::host {
 namespace {
 
 namespace fs = std::filesystem;
-
-hal::Fault WriteFault(const fs::path& file) {
-  return hal::MakeFault(Status::kIoError, "%s: cannot be written: %s", file.c_str(),
-                        std::strerror(errno));
-}
 
 hal::Fault MakeFolder(const fs::path& folder) {
   std::error_code error;
@@ -81,44 +76,71 @@ hal::Fault SequenceWriter::Open(const fs::path& dir, std::string_view object, bo
   }
   fault = MakeFolder(dir / kDepthFolder);
   if (!fault.ok()) return fault;
+  fault = data_.Open(dir / kDataFile);
+  if (!fault.ok()) return fault;
   dir_ = dir;
   object_ = object;
   frames_ = 0;
+  pending_ = false;
+  failure_ = {};
   truths_.clear();
-  data_.open(dir / kDataFile, std::ios::binary);
-  return data_ ? hal::Fault{} : WriteFault(dir / kDataFile);
+  return {};
+}
+
+hal::Fault SequenceWriter::GiveUp(const hal::Fault& fault) {
+  failure_ = fault;
+  if (pending_) --frames_;
+  pending_ = false;
+  return fault;
 }
 
 hal::Fault SequenceWriter::AddFrame(const DepthFrame& frame) {
   if (dir_.empty()) return hal::MakeFault(Status::kNotOpen, "sequence writer: not open");
   const DepthView& depth = frame.depth;
-  if (frames_ == 0) {
-    const hal::Fault fault = WriteCamera(frame);
-    if (!fault.ok()) return fault;
-  } else if (depth.width_px != width_px_ || depth.height_px != height_px_) {
+  if (frames_ > 0 && (depth.width_px != width_px_ || depth.height_px != height_px_)) {
     return hal::MakeFault(
         Status::kInvalidImageSize, "%s: frame %d is %dx%d, the sequence is %dx%d; start a new one",
         dir_.c_str(), frames_, depth.width_px, depth.height_px, width_px_, height_px_);
   }
-  hal::Fault fault = WriteDepth(depth);
-  if (!fault.ok()) return fault;
+  const hal::Fault fault = CompleteFrame();
+  return fault.ok() ? WriteFrame(frame) : fault;
+}
+
+hal::Fault SequenceWriter::WriteFrame(const DepthFrame& frame) {
+  hal::Fault fault;
+  if (frames_ == 0) fault = WriteCamera(frame);
+  if (fault.ok()) fault = WriteDepth(frame.depth);
+  if (fault.ok() && frame.has_T_wc) {
+    fault = AppendLine(world_poses_, kWorldPoseFile, FormatPose(frame.T_wc.Cast<double>()));
+  }
+  if (!fault.ok()) return GiveUp(fault);
   std::array<char, 64> line{};
   constexpr StampNs kNsPerS = 1'000'000'000;
   // Not through double, which cannot hold nanoseconds of large stamps.
   (void)std::snprintf(line.data(), line.size(), "%d %" PRId64 ".%09" PRId64, frames_,
                       frame.stamp_ns / kNsPerS, frame.stamp_ns % kNsPerS);
-  fault = AppendLine(data_, kDataFile, line.data());
-  if (fault.ok() && frame.has_T_wc) {
-    fault = AppendLine(world_poses_, kWorldPoseFile, FormatPose(frame.T_wc.Cast<double>()));
-  }
-  if (fault.ok()) ++frames_;
-  return fault;
+  stamp_line_ = line.data();
+  pending_ = true;
+  ++frames_;
+  return {};
+}
+
+hal::Fault SequenceWriter::CompleteFrame() {
+  if (!failure_.ok() || !pending_) return failure_;
+  const hal::Fault fault = data_.Append(stamp_line_);
+  if (!fault.ok()) return GiveUp(fault);
+  pending_ = false;
+  return {};
+}
+
+hal::Fault SequenceWriter::CheckPending() const {
+  if (!failure_.ok() || pending_) return failure_;
+  return hal::MakeFault(Status::kNotOpen, "sequence writer: there is no frame to add this to");
 }
 
 hal::Fault SequenceWriter::WriteCamera(const DepthFrame& frame) {
   width_px_ = frame.depth.width_px;
   height_px_ = frame.depth.height_px;
-  row_m_.resize(static_cast<std::size_t>(width_px_));
   const auto exact = [](float value) { return static_cast<double>(value); };
   const nlohmann::ordered_json camera{{"width", width_px_},
                                       {"height", height_px_},
@@ -126,35 +148,34 @@ hal::Fault SequenceWriter::WriteCamera(const DepthFrame& frame) {
                                       {"fy", exact(frame.camera.fy_px)},
                                       {"cx", exact(frame.camera.cx_px)},
                                       {"cy", exact(frame.camera.cy_px)}};
-  std::ofstream file(dir_ / kCameraFile, std::ios::binary);
-  file << camera.dump(2) << '\n';
-  file.close();
-  return file ? hal::Fault{} : WriteFault(dir_ / kCameraFile);
+  return WriteWholeFile(dir_ / kCameraFile, camera.dump(2) + '\n');
 }
 
 hal::Fault SequenceWriter::WriteDepth(const DepthView& depth) {
-  const fs::path path = dir_ / kDepthFolder / (std::to_string(frames_) + kDepthExtension);
-  std::ofstream file(path, std::ios::binary);
   const std::array<std::uint64_t, 2> size{static_cast<std::uint64_t>(width_px_),
                                           static_cast<std::uint64_t>(height_px_)};
   static_assert(std::endian::native == std::endian::little, "the format is little endian");
-  file.write(reinterpret_cast<const char*>(size.data()), sizeof(size));
-  const auto row_bytes = static_cast<std::streamsize>(row_m_.size() * sizeof(float));
-  for (int v = 0; v < height_px_; ++v) {
-    const std::byte* source = depth.row(v);
+  const auto columns = static_cast<std::size_t>(width_px_);
+  const std::size_t row_bytes = columns * sizeof(float);
+  depth_bytes_.resize(sizeof(size) + static_cast<std::size_t>(height_px_) * row_bytes);
+  char* target = depth_bytes_.data();
+  std::memcpy(target, size.data(), sizeof(size));
+  target += sizeof(size);
+  for (int v = 0; v < height_px_; ++v, target += row_bytes) {
+    const std::byte* const source = depth.row(v);
     if (depth.format == DepthFormat::kFloat32) {
-      file.write(reinterpret_cast<const char*>(source), row_bytes);
+      std::memcpy(target, source, row_bytes);
       continue;
     }
-    for (std::size_t u = 0; u < row_m_.size(); ++u) {
+    for (std::size_t u = 0; u < columns; ++u) {
       std::uint16_t raw = 0;
-      std::memcpy(&raw, source + 2 * u, sizeof(raw));
-      row_m_[u] = static_cast<float>(raw) * depth.unit_m;
+      std::memcpy(&raw, source + sizeof(raw) * u, sizeof(raw));
+      const float depth_m = static_cast<float>(raw) * depth.unit_m;
+      std::memcpy(target + sizeof(depth_m) * u, &depth_m, sizeof(depth_m));
     }
-    file.write(reinterpret_cast<const char*>(row_m_.data()), row_bytes);
   }
-  file.close();
-  return file ? hal::Fault{} : WriteFault(path);
+  return WriteWholeFile(dir_ / kDepthFolder / (std::to_string(frames_) + kDepthExtension),
+                        {depth_bytes_.data(), depth_bytes_.size()});
 }
 
 hal::Fault SequenceWriter::AddMask(std::string_view set, const MaskView& mask) {
@@ -189,16 +210,18 @@ hal::Fault SequenceWriter::AddInfrared(const MaskView& image) {
 
 /// @param file Inside of the sequence's folder.
 hal::Fault SequenceWriter::WriteImage(const fs::path& file, const MaskView& image) {
-  if (frames_ == 0) return hal::MakeFault(Status::kNotOpen, "sequence writer: no frame added yet");
+  hal::Fault fault = CheckPending();
+  if (!fault.ok()) return fault;
   if (image.width_px != width_px_ || image.height_px != height_px_) {
     return hal::MakeFault(Status::kMaskSizeMismatch, "%s: mask of frame %d is %dx%d, depth %dx%d",
                           dir_.c_str(), frames_ - 1, image.width_px, image.height_px, width_px_,
                           height_px_);
   }
   const fs::path path = dir_ / file;
-  const hal::Fault fault = MakeFolder(path.parent_path());
-  if (!fault.ok()) return fault;
-  return WriteGray8Png(path, image.data, width_px_, height_px_, image.stride_bytes);
+  fault = MakeFolder(path.parent_path());
+  if (fault.ok())
+    fault = WriteGray8Png(path, image.data, width_px_, height_px_, image.stride_bytes);
+  return fault.ok() ? fault : GiveUp(fault);
 }
 
 SequenceWriter::TruthFiles& SequenceWriter::TruthOf(std::string_view name) {
@@ -212,40 +235,39 @@ SequenceWriter::TruthFiles& SequenceWriter::TruthOf(std::string_view name) {
 
 hal::Fault SequenceWriter::AddTruthOf(std::string_view name,
                                       const RigidState<Camera, Object>& object) {
-  if (frames_ == 0) return hal::MakeFault(Status::kNotOpen, "sequence writer: no frame added yet");
+  hal::Fault fault = CheckPending();
+  if (!fault.ok()) return fault;
   TruthFiles& truth = TruthOf(name);
   const fs::path folder = TruthFolder(name);
-  hal::Fault fault = MakeFolder(dir_ / folder);
+  fault = MakeFolder(dir_ / folder);
   if (fault.ok()) fault = AppendLine(truth.poses, folder / kPoseFile, FormatPose(object.pose));
-  if (!fault.ok()) return fault;
+  if (!fault.ok()) return GiveUp(fault);
   const Vec3d& v = object.linear_mps;
   const Vec3d& w = object.angular_rps;
   std::array<char, 192> line{};
   (void)std::snprintf(line.data(), line.size(), "%.12g %.12g %.12g %.12g %.12g %.12g", v.x(), v.y(),
                       v.z(), w.x(), w.y(), w.z());
-  return AppendLine(truth.velocities, folder / kVelocityFile, line.data());
+  fault = AppendLine(truth.velocities, folder / kVelocityFile, line.data());
+  return fault.ok() ? fault : GiveUp(fault);
 }
 
-hal::Fault SequenceWriter::AppendLine(std::ofstream& stream, const std::string& name,
-                                      const std::string& line) {
-  if (!stream.is_open()) stream.open(dir_ / name, std::ios::binary);
-  stream << line << '\n';
-  return stream ? hal::Fault{} : WriteFault(dir_ / name);
+hal::Fault SequenceWriter::AppendLine(LineFile& file, const fs::path& name, std::string_view line) {
+  const hal::Fault fault = file.is_open() ? hal::Fault{} : file.Open(dir_ / name);
+  return fault.ok() ? file.Append(line) : fault;
 }
 
 hal::Fault SequenceWriter::Finish() {
-  hal::Fault fault;
-  const auto close = [&](std::ofstream& stream, const fs::path& name) {
-    if (!stream.is_open()) return;
-    stream.close();
-    if (!stream && fault.ok()) fault = WriteFault(dir_ / name);
+  hal::Fault fault = CompleteFrame();
+  const auto close = [&fault](LineFile& file) {
+    const hal::Fault closed = file.Close();
+    if (fault.ok()) fault = closed;
   };
-  close(data_, kDataFile);
+  close(data_);
   for (TruthFiles& truth : truths_) {
-    close(truth.poses, TruthFolder(truth.name) / kPoseFile);
-    close(truth.velocities, TruthFolder(truth.name) / kVelocityFile);
+    close(truth.poses);
+    close(truth.velocities);
   }
-  close(world_poses_, kWorldPoseFile);
+  close(world_poses_);
   dir_.clear();
   return fault;
 }

@@ -19,6 +19,9 @@ class Sensor {
   /// The same if it is a simulated one, which knows the truth; else null.
   [[nodiscard]] SimulatedSensor* simulated() const { return simulated_; }
 
+  /// What people should know of it although it could be opened; usually empty.
+  [[nodiscard]] const std::string& note() const { return note_; }
+
   template <class Kind, class... Arguments>
   Kind& Emplace(Arguments&&... arguments) {
     auto made = std::make_shared<Kind>(std::forward<Arguments>(arguments)...);
@@ -28,10 +31,12 @@ class Sensor {
     return reference;
   }
   void set_simulated(SimulatedSensor* sensor) { simulated_ = sensor; }
+  void set_note(std::string note) { note_ = std::move(note); }
 
  private:
   std::shared_ptr<hal::DepthSensor> sensor_;
   SimulatedSensor* simulated_ = nullptr;
+  std::string note_;
 };
 
 /// Makes and opens the sensor that an address names: `replay:DIR?…` or `sim:OBJECT?…`.

@@ -16,12 +16,17 @@ namespace disflow::host {
 /// goes on with the next one. Where a mask set has no image for a frame (segmentation networks skip
 /// some), the mask before it is held and counted; before the first one it is empty. Stamps and
 /// mask sizes are delivered as they are: judging them is the tracker's task.
+///
+/// Of a recording that was cut short (the program was killed, the disk full) the frame that was
+/// being written is left out; note() says so.
 class ReplaySensor final : public hal::DepthSensor {
  public:
   explicit ReplaySensor(ReplayOptions options);
   ~ReplaySensor();
 
   [[nodiscard]] int held_masks() const;
+  /// What was left out of a recording that was cut short, for people; empty if it is whole.
+  [[nodiscard]] const std::string& note() const;
 
  private:
   struct State;
