@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "disflow/host/image_limits.h"
 #include "errors.h"
 #include "text_file.h"
 
@@ -18,8 +19,8 @@ namespace fs = std::filesystem;
 
 static_assert(std::endian::native == std::endian::little, "images are read without swapping");
 
-/// Larger images are taken for rubbish.
-constexpr double kMaxSide_px = 16384.0;
+constexpr double kMaxSide_px = host::kMaxImageSide_px;
+constexpr std::size_t kMaxCamera_bytes = 65536;
 constexpr std::size_t kHeaderBytes = 2 * sizeof(std::uint64_t);
 
 double Entry(const fs::path& file, const nlohmann::json& json, const char* key, double max) {
@@ -35,7 +36,8 @@ double Entry(const fs::path& file, const nlohmann::json& json, const char* key, 
 
 DepthImages::DepthImages(fs::path sequence_dir) : sequence_dir_(std::move(sequence_dir)) {
   const fs::path file = sequence_dir_ / "cam_K.json";
-  const auto json = nlohmann::json::parse(ReadFile(file), nullptr, /*allow_exceptions=*/false);
+  const auto json = nlohmann::json::parse(ReadFile(file, kMaxCamera_bytes), nullptr,
+                                          /*allow_exceptions=*/false);
   if (!json.is_object()) throw InputError(file, "is no JSON object");
   const auto focal = [&](const char* key) {
     return static_cast<float>(Entry(file, json, key, 1e6));
@@ -43,6 +45,11 @@ DepthImages::DepthImages(fs::path sequence_dir) : sequence_dir_(std::move(sequen
   camera_ = {focal("fx"), focal("fy"), focal("cx"), focal("cy")};
   width_px_ = static_cast<int>(Entry(file, json, "width", kMaxSide_px));
   height_px_ = static_cast<int>(Entry(file, json, "height", kMaxSide_px));
+  if (Pixels() > host::kMaxImagePixels) {
+    throw InputError(file, "says " + std::to_string(width_px_) + " x " +
+                               std::to_string(height_px_) + " pixels; " +
+                               std::to_string(host::kMaxImagePixels) + " can be read");
+  }
 }
 
 fs::path DepthImages::FileOf(int index) const {
@@ -57,8 +64,7 @@ bool DepthImages::Has(int index) const {
 DepthFrame DepthImages::Load(int index) {
   const fs::path file = FileOf(index);
   const std::string bytes = ReadFile(file);
-  depth_m_.resize(static_cast<std::size_t>(width_px_) * static_cast<std::size_t>(height_px_));
-  const std::size_t pixel_bytes = depth_m_.size() * sizeof(float);
+  const std::size_t pixel_bytes = Pixels() * sizeof(float);
   std::array<std::uint64_t, 2> size{};
   if (bytes.size() >= kHeaderBytes) std::memcpy(size.data(), bytes.data(), kHeaderBytes);
   if (size[0] != static_cast<std::uint64_t>(width_px_) ||
@@ -67,6 +73,7 @@ DepthFrame DepthImages::Load(int index) {
     throw InputError(file, "is truncated or not the " + std::to_string(width_px_) + " x " +
                                std::to_string(height_px_) + " image that cam_K.json promises");
   }
+  depth_m_.resize(Pixels());
   std::memcpy(depth_m_.data(), bytes.data() + kHeaderBytes, pixel_bytes);
   DepthFrame frame;
   frame.camera = camera_;

@@ -25,6 +25,10 @@ class DepthImages {
 
  private:
   [[nodiscard]] std::filesystem::path FileOf(int index) const;
+  /// Of each image.
+  [[nodiscard]] std::size_t Pixels() const {
+    return static_cast<std::size_t>(width_px_) * static_cast<std::size_t>(height_px_);
+  }
 
   std::filesystem::path sequence_dir_;
   PinholeCamera camera_;

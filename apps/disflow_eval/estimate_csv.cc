@@ -165,26 +165,28 @@ std::optional<std::size_t> EstimateTable::FindStage(std::string_view name) const
 
 EstimateTable LoadEstimates(const fs::path& file, int frame_count) {
   const std::string text = ReadFile(file);
-  const std::vector<Line> lines = NonEmptyLines(text);
-  if (lines.size() < 2) throw InputError(file, "holds no frame; a header and rows are needed");
+  LineReader lines(text);
+  Line header;
+  Line line;
+  if (!lines.Next(header) || !lines.Next(line))
+    throw InputError(file, "holds no frame; a header and rows are needed");
   EstimateTable table;
-  const Columns columns = ParseHeader(file, lines.front(), table);
-  table.rows.reserve(lines.size() - 1);
-  for (std::size_t i = 1; i < lines.size(); ++i) {
-    EstimateRow row = ParseRow(file, lines[i], columns);
+  const Columns columns = ParseHeader(file, header, table);
+  do {
+    EstimateRow row = ParseRow(file, line, columns);
     if (row.frame >= frame_count) {
-      throw InputError(file, lines[i].number,
+      throw InputError(file, line.number,
                        "frame " + std::to_string(row.frame) + " is not in the sequence of " +
                            std::to_string(frame_count) + " frames");
     }
     if (!table.rows.empty() && row.frame <= table.rows.back().frame) {
-      throw InputError(file, lines[i].number,
+      throw InputError(file, line.number,
                        "frame " + std::to_string(row.frame) + " follows frame " +
                            std::to_string(table.rows.back().frame) +
                            "; frame numbers must increase");
     }
     table.rows.push_back(std::move(row));
-  }
+  } while (lines.Next(line));
   return table;
 }
 

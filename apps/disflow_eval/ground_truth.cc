@@ -38,7 +38,8 @@ void RequireCount(const fs::path& file, std::size_t count, std::size_t expected)
 std::vector<TruePose> LoadPoses(const fs::path& file) {
   std::vector<TruePose> poses;
   const std::string text = ReadFile(file);
-  for (const Line& line : NonEmptyLines(text)) poses.push_back(ParsePose(file, line));
+  LineReader lines(text);
+  for (Line line; lines.Next(line);) poses.push_back(ParsePose(file, line));
   if (poses.empty()) throw InputError(file, "holds no pose");
   return poses;
 }
@@ -46,7 +47,8 @@ std::vector<TruePose> LoadPoses(const fs::path& file) {
 std::vector<PointTwist> LoadTwists(const fs::path& file) {
   std::vector<PointTwist> twists;
   const std::string text = ReadFile(file);
-  for (const Line& line : NonEmptyLines(text)) {
+  LineReader lines(text);
+  for (Line line; lines.Next(line);) {
     const std::vector<double> n = ParseNumbers(file, line, 6);
     twists.push_back({Vec3d(n[0], n[1], n[2]), Vec3d(n[3], n[4], n[5])});
   }
@@ -55,7 +57,8 @@ std::vector<PointTwist> LoadTwists(const fs::path& file) {
 
 void LoadStamps(const fs::path& file, GroundTruth& truth) {
   const std::string text = ReadFile(file);
-  for (const Line& line : NonEmptyLines(text)) {
+  LineReader lines(text);
+  for (Line line; lines.Next(line);) {
     const std::vector<std::string_view> fields = SplitAtSpaces(line.text);
     if (fields.size() < 2) {
       throw InputError(file, line.number, "a frame index and a time stamp are needed");

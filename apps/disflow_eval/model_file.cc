@@ -3,10 +3,11 @@
 
 #include <tiny_obj_loader.h>
 
-#include <fstream>
 #include <sstream>
 #include <string>
+#include <utility>
 
+#include "disflow/host/obj_text.h"
 #include "errors.h"
 #include "text_file.h"
 
@@ -65,7 +66,10 @@ Surface FromFaces(const fs::path& file, const tinyobj::attrib_t& attributes,
 }
 
 Surface LoadObj(const fs::path& file) {
-  std::istringstream stream(ReadFile(file));
+  std::string text;
+  const hal::Fault fault = host::ReadObjText(file, text);
+  if (!fault.ok()) throw InputError(fault.message);
+  std::istringstream stream(std::move(text));
   tinyobj::attrib_t attributes;
   std::vector<tinyobj::shape_t> shapes;
   std::vector<tinyobj::material_t> materials;
@@ -86,7 +90,8 @@ Surface LoadXyz(const fs::path& file) {
   const std::string text = ReadFile(file);
   Surface surface;
   std::size_t width = 0;
-  for (const Line& line : NonEmptyLines(text)) {
+  LineReader lines(text);
+  for (Line line; lines.Next(line);) {
     if (line.text.front() == '#') continue;
     if (width == 0) width = SplitAtSpaces(line.text).size() == 6 ? 6 : 3;
     const std::vector<double> n = ParseNumbers(file, line, width);

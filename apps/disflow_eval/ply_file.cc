@@ -98,8 +98,12 @@ void ReadList(const fs::path& file, PlyData& data, const PlyProperty& property,
   if (!(count >= 0.0) || count != std::floor(count)) {
     throw InputError(file, "a list of '" + property.name + "' has no valid length");
   }
+  constexpr double kMostItems = 1000.0;
+  if (count > kMostItems) {
+    throw InputError(file, "a list of '" + property.name + "' has " + std::to_string(count) +
+                               " entries; 1000 can be read");
+  }
   items.clear();
-  // Not reserved: a false length must run into the end of the file, not out of memory.
   for (double i = 0.0; i < count; ++i) items.push_back(data.Next(property.type));
 }
 

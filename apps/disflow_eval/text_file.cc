@@ -3,17 +3,23 @@
 
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstring>
 #include <fstream>
-#include <iterator>
 
 #include "errors.h"
 
 namespace disflow::apps {
 namespace {
+
+/// As much of a field as a message shows.
+std::string Shown(std::string_view field) {
+  constexpr std::size_t kMostShown = 40;
+  return std::string(field.substr(0, kMostShown)) + (field.size() > kMostShown ? "…" : "");
+}
 
 constexpr std::string_view kSpaces = " \t\r";
 
@@ -37,7 +43,7 @@ void WriteDirectly(const std::filesystem::path& file, std::string_view text,
 
 }  // namespace
 
-std::string ReadFile(const std::filesystem::path& file) {
+std::string ReadFile(const std::filesystem::path& file, std::size_t max_bytes) {
   std::error_code error;
   if (std::filesystem::is_directory(file, error)) {
     throw InputError(file, "is a folder, a file is needed");
@@ -45,8 +51,19 @@ std::string ReadFile(const std::filesystem::path& file) {
   errno = 0;
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw InputError(file, std::string("cannot be opened: ") + std::strerror(errno));
-  std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  // Pipes have no size: they are read until they have said too much.
+  const std::uintmax_t size = std::filesystem::file_size(file, error);
+  std::string text;
+  if (!error && size <= max_bytes) text.reserve(static_cast<std::size_t>(size));
+  std::array<char, 65536> part{};
+  while (stream && text.size() <= max_bytes && (error || size <= max_bytes)) {
+    stream.read(part.data(), part.size());
+    text.append(part.data(), static_cast<std::size_t>(stream.gcount()));
+  }
   if (stream.bad()) throw InputError(file, std::string("cannot be read: ") + std::strerror(errno));
+  if (text.size() > max_bytes || (!error && size > max_bytes)) {
+    throw InputError(file, "is longer than " + std::to_string(max_bytes) + " bytes");
+  }
   return text;
 }
 
@@ -72,17 +89,17 @@ void WriteFile(const std::filesystem::path& file, std::string_view text) {
   }
 }
 
-std::vector<Line> NonEmptyLines(std::string_view text) {
-  std::vector<Line> lines;
-  std::size_t number = 0;
-  while (!text.empty()) {
-    ++number;
-    const std::size_t end = text.find('\n');
-    const std::string_view line = Trim(text.substr(0, end));
-    if (!line.empty()) lines.push_back({number, line});
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+bool LineReader::Next(Line& line) {
+  while (!rest_.empty()) {
+    ++number_;
+    const std::size_t end = rest_.find('\n');
+    const std::string_view text = Trim(rest_.substr(0, end));
+    rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
+    if (text.empty()) continue;
+    line = {number_, text};
+    return true;
   }
-  return lines;
+  return false;
 }
 
 std::vector<std::string_view> SplitAt(std::string_view line, char separator) {
@@ -134,9 +151,9 @@ double ParseFinite(const std::filesystem::path& file, const Line& line, std::str
                    std::string_view field) {
   const std::optional<double> value = ParseNumber(field);
   if (!value || !std::isfinite(*value)) {
-    throw InputError(file, line.number,
-                     "field " + std::string(name) + " is '" + std::string(field) +
-                         "', a finite number is needed");
+    throw InputError(
+        file, line.number,
+        "field " + std::string(name) + " is '" + Shown(field) + "', a finite number is needed");
   }
   return *value;
 }
@@ -148,7 +165,7 @@ int ParseIndex(const std::filesystem::path& file, const Line& line, std::string_
   const auto [stop, error] = std::from_chars(field.data(), end, value);
   if (error != std::errc() || stop != end || value < 0) {
     throw InputError(file, line.number,
-                     "field " + std::string(name) + " is '" + std::string(field) +
+                     "field " + std::string(name) + " is '" + Shown(field) +
                          "', a whole number from 0 on is needed");
   }
   return value;

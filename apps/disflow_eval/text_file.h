@@ -9,8 +9,12 @@
 
 namespace disflow::apps {
 
-/// The whole of a file. @throws InputError if it cannot be read.
-[[nodiscard]] std::string ReadFile(const std::filesystem::path& file);
+/// More is refused before it is read: a damaged or hostile file must not take all memory.
+inline constexpr std::size_t kMaxFile_bytes = std::size_t{1} << 27U;
+
+/// The whole of a file. @throws InputError if it cannot be read or is longer than `max_bytes`.
+[[nodiscard]] std::string ReadFile(const std::filesystem::path& file,
+                                   std::size_t max_bytes = kMaxFile_bytes);
 
 /// Writes through a temporary file beside the target and renames it, so that an earlier result
 /// survives a full disk. Targets that are not regular files (/dev/null, pipes) are written
@@ -24,8 +28,18 @@ struct Line {
   std::string_view text;  ///< Without line end (LF or CRLF).
 };
 
-/// The lines of a text that hold more than white space. The views point into `text`.
-[[nodiscard]] std::vector<Line> NonEmptyLines(std::string_view text);
+/// Reads the lines of a text that hold more than white space, one after the other.
+class LineReader {
+ public:
+  /// @param text Must outlive the lines.
+  explicit LineReader(std::string_view text) : rest_(text) {}
+  /// @return false if there is no other line.
+  [[nodiscard]] bool Next(Line& line);
+
+ private:
+  std::string_view rest_;
+  std::size_t number_ = 0;
+};
 
 /// Fields between separators, white space around each removed. Empty fields are kept.
 [[nodiscard]] std::vector<std::string_view> SplitAt(std::string_view line, char separator);

@@ -9,16 +9,9 @@
 
 namespace disflow::apps {
 
-/// @throws Failure kWrongUsage with file and line.
-[[nodiscard]] inline toml::table ParseTomlFile(const std::string& file) {
-  try {
-    return toml::parse_file(file);
-  } catch (const toml::parse_error& error) {
-    const auto line = error.source().begin.line;  // 0 if the file cannot be opened
-    Refuse(line > 0 ? file + ":" + std::to_string(line) + ": " : file + ": ",
-           std::string(error.description()));
-  }
-}
+/// @throws Failure kWrongUsage with file and line; also for a file that is far longer, or has keys
+/// that are far deeper, than settings are.
+[[nodiscard]] toml::table ParseTomlFile(const std::string& file);
 
 /// "run.toml:12: ", for messages.
 [[nodiscard]] inline std::string Where(const std::string& file, const toml::node& node) {

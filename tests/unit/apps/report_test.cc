@@ -163,7 +163,9 @@ TEST(PlotsTest, ReportWithCovariances_HasAPlotOfTheNees) {
 
 TEST(FrameTableTest, EveryFrame_HasItsLineAndWhatIsNotKnownIsNan) {
   const std::string text = FormatFrames(MakeReportWithCovariance());
-  const std::vector<Line> lines = NonEmptyLines(text);
+  std::vector<Line> lines;
+  LineReader reader(text);
+  for (Line line; reader.Next(line);) lines.push_back(line);
   ASSERT_EQ(lines.size(), 21U);
   const auto names = SplitAt(lines[0].text, ',');
   const auto nees = std::find(names.begin(), names.end(), "pose_nees") - names.begin();

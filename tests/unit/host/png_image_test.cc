@@ -106,6 +106,19 @@ TEST(PngImage, AbsurdSize_IsRefusedBeforeAllocation) {
   EXPECT_EQ(ReadGrayPng(file, image).status, Status::kImageTooLarge);
 }
 
+TEST(PngImage, FileTooShortForItsHeader_IsRefusedBeforeAllocation) {
+  const ScratchDir dir;
+  const auto file = dir.path() / "large.png";
+  const std::vector<std::uint8_t> pixels(4096 * 4096, 0);
+  ASSERT_TRUE(WriteGray8Png(file, pixels.data(), 4096, 4096, 4096).ok());
+  GrayImage image;
+  ASSERT_TRUE(ReadGrayPng(file, image).ok()) << "the largest there is, packed as well as can be";
+  const auto cut = dir.Write("cut.png", Bytes(file).substr(0, 1000));
+  image = {};
+  EXPECT_EQ(ReadGrayPng(cut, image).status, Status::kTruncated);
+  EXPECT_TRUE(image.pixels.empty());
+}
+
 TEST(PngImage, MissingFileAndUnwritableTarget_AreNamed) {
   const ScratchDir dir;
   GrayImage image;

@@ -214,6 +214,18 @@ TEST_F(ReplaySensorTest, MasksOfSeveralObjects_NeedAChoice) {
   ExpectRefused(Status::kNotFound, {"box", "can"}, options);
 }
 
+TEST_F(ReplaySensorTest, MasksOfMoreObjectsThanHaveRoom_AreRefusedBeforeAllocation) {
+  Overwrite(path() / "cam_K.json",
+            R"({"width":4096,"height":4096,"fx":60,"fy":60,"cx":32,"cy":24})");
+  ReplayOptions options = Replay();
+  options.object = "box";
+  for (const char* name : {"a", "b", "c", "d"}) {
+    fs::copy_file(mask(0), path() / "masks" / "gt" / (std::string(name) + "_0.png"));
+    options.object += std::string("+") + name;
+  }
+  ExpectRefused(Status::kImageTooLarge, {path().string(), "5 objects"}, options);
+}
+
 TEST_F(ReplaySensorTest, NumbersThatStartAtOneAndHaveZeros_AreTakenInNumericOrder) {
   for (int i = kFrames - 1; i >= 0; --i) {
     const std::string name = i + 1 == 2 ? "0002" : std::to_string(5 * i + 1);

@@ -14,6 +14,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Either kind of file holds a handful of numbers.
+constexpr std::uintmax_t kMaxCamera_bytes = 65536;
+
 hal::Fault CheckCamera(const fs::path& file, const PinholeCamera& camera) {
   if (camera.IsValid()) return {};
   return hal::MakeFault(Status::kInvalidIntrinsics,
@@ -45,9 +48,18 @@ hal::Fault ReadSide(const fs::path& file, const nlohmann::json& json, const char
   return {};
 }
 
+hal::Fault CheckPixels(const fs::path& file, const CameraDescription& description) {
+  const auto pixels = static_cast<std::uint64_t>(description.width_px) *
+                      static_cast<std::uint64_t>(description.height_px);
+  if (pixels <= kMaxImagePixels) return {};
+  return hal::MakeFault(
+      Status::kInvalidImageSize, "%s: %d x %d pixels are too many; %ju can be read", file.c_str(),
+      description.width_px, description.height_px, std::uintmax_t{kMaxImagePixels});
+}
+
 hal::Fault ReadJsonCamera(const fs::path& file, CameraDescription& description) {
   std::string text;
-  hal::Fault fault = ReadTextFile(file, text);
+  hal::Fault fault = ReadTextFile(file, kMaxCamera_bytes, text);
   if (!fault.ok()) return fault;
   const nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
   if (!json.is_object()) {
@@ -58,6 +70,7 @@ hal::Fault ReadJsonCamera(const fs::path& file, CameraDescription& description) 
   }
   fault = ReadSide(file, json, "width", description.width_px);
   if (fault.ok()) fault = ReadSide(file, json, "height", description.height_px);
+  if (fault.ok()) fault = CheckPixels(file, description);
   double fx = 0.0;
   double fy = 0.0;
   double cx = 0.0;

@@ -31,6 +31,12 @@ hal::Fault ReadFloatDepth(const std::filesystem::path& file, FloatImage& image) 
                           "%s: header says %" PRIu64 " x %" PRIu64 " pixels; 1 to %u are possible",
                           file.c_str(), width, height, kMaxImageSide_px);
   }
+  if (width * height > kMaxImagePixels) {
+    return hal::MakeFault(Status::kCorrupt,
+                          "%s: header says %" PRIu64 " x %" PRIu64 " pixels; %" PRIu64
+                          " can be read",
+                          file.c_str(), width, height, kMaxImagePixels);
+  }
   const std::uint64_t needed = sizeof(size) + width * height * sizeof(float);
   if (bytes != needed) {
     return hal::MakeFault(bytes < needed ? Status::kTruncated : Status::kCorrupt,

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "disflow/host/image_limits.h"
 #include "disflow/host/png_image.h"
 #include "float_depth_file.h"
 #include "sequence_index.h"
@@ -37,6 +38,7 @@ struct ReplaySensor::State {
   explicit State(const ReplayOptions& replay_options) : options(replay_options) {}
 
   [[nodiscard]] Fault FindSize();
+  [[nodiscard]] Fault CheckMasks() const;
   [[nodiscard]] Fault ReadFrame(const RecordedFrame& source, DepthFrame& frame);
   [[nodiscard]] Fault ReadDepth(const RecordedFrame& source, DepthFrame& frame);
   [[nodiscard]] Fault ReadMasks(const RecordedFrame& source, DepthFrame& frame);
@@ -70,6 +72,19 @@ Fault ReplaySensor::State::FindSize() {
     height_px = frame.depth.height_px;
   }
   return width_px > 0 ? Fault{} : fault;
+}
+
+/// Every object's last mask is kept.
+Fault ReplaySensor::State::CheckMasks() const {
+  const std::uint64_t pixels = static_cast<std::uint64_t>(width_px) *
+                               static_cast<std::uint64_t>(height_px) *
+                               static_cast<std::uint64_t>(index.masked_objects);
+  constexpr std::uint64_t kMaxMaskPixels = 4 * kMaxImagePixels;
+  if (pixels <= kMaxMaskPixels) return {};
+  return hal::MakeFault(Status::kImageTooLarge,
+                        "%s: masks of %d objects and %d x %d pixels are too many; choose with "
+                        "object=NAME",
+                        options.dir.c_str(), index.masked_objects, width_px, height_px);
 }
 
 Fault ReplaySensor::State::ReadFrame(const RecordedFrame& source, DepthFrame& frame) {
@@ -170,6 +185,7 @@ Fault ReplaySensor::DoOpen() noexcept try {
   if (state.open) return {};
   Fault fault = IndexSequence(options_, state.index);
   if (fault.ok()) fault = state.FindSize();
+  if (fault.ok()) fault = state.CheckMasks();
   if (!fault.ok()) return fault;
   state.labels.assign(
       static_cast<std::size_t>(state.width_px) * static_cast<std::size_t>(state.height_px), 0);

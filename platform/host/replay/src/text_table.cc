@@ -29,7 +29,7 @@ std::vector<std::string_view> SplitFields(std::string_view line) {
 
 }  // namespace
 
-hal::Fault ReadTextFile(const fs::path& file, std::string& text) {
+hal::Fault ReadTextFile(const fs::path& file, std::uintmax_t max_bytes, std::string& text) {
   std::error_code error;
   const std::uintmax_t size = fs::file_size(file, error);
   if (error) {
@@ -37,10 +37,9 @@ hal::Fault ReadTextFile(const fs::path& file, std::string& text) {
         error == std::errc::no_such_file_or_directory ? Status::kNotFound : Status::kIoError;
     return hal::MakeFault(status, "%s: %s", file.c_str(), error.message().c_str());
   }
-  constexpr std::uintmax_t kMaxBytes = std::uintmax_t{1} << 28U;
-  if (size > kMaxBytes) {
-    return hal::MakeFault(Status::kCorrupt, "%s: %ju bytes are too many for a text file",
-                          file.c_str(), size);
+  if (size > max_bytes) {
+    return hal::MakeFault(Status::kCorrupt, "%s: %ju bytes are too many; %ju can be read",
+                          file.c_str(), size, max_bytes);
   }
   text.resize(static_cast<std::size_t>(size));
   std::ifstream stream(file, std::ios::binary);
@@ -53,13 +52,18 @@ hal::Fault ReadTextFile(const fs::path& file, std::string& text) {
 hal::Fault TextTable::Read(const fs::path& file) {
   file_ = file;
   rows_.clear();
-  const hal::Fault fault = ReadTextFile(file, text_);
+  constexpr std::uintmax_t kMaxBytes = std::uintmax_t{1} << 26U;
+  constexpr std::size_t kMaxFields = std::size_t{1} << 22U;
+  const hal::Fault fault = ReadTextFile(file, kMaxBytes, text_);
   if (!fault.ok()) return fault;
   std::string_view rest = text_;
+  std::size_t fields = 0;
   for (int line = 1; !rest.empty(); ++line) {
     const std::string_view text = rest.substr(0, rest.find('\n'));
     rest.remove_prefix(std::min(text.size() + 1, rest.size()));
     TableRow row{line, SplitFields(text)};
+    fields += row.fields.size();
+    if (fields > kMaxFields) return LineFault(row, "more than four million fields are too many");
     if (!row.fields.empty()) rows_.push_back(std::move(row));
   }
   return {};

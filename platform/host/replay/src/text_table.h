@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -23,7 +24,8 @@ class TextTable {
   TextTable(const TextTable&) = delete;
   TextTable& operator=(const TextTable&) = delete;
 
-  /// @return kNotFound, kCorrupt (absurdly large) or kIoError, naming the file.
+  /// @return kNotFound, kCorrupt (absurdly large: room for hours of frames) or kIoError, naming the
+  /// file.
   [[nodiscard]] hal::Fault Read(const std::filesystem::path& file);
   [[nodiscard]] const std::vector<TableRow>& rows() const { return rows_; }
   /// Whether the last line has its line feed. Without, it may have been cut.
@@ -42,6 +44,9 @@ class TextTable {
 };
 
 /// The whole of a small text file.
-[[nodiscard]] hal::Fault ReadTextFile(const std::filesystem::path& file, std::string& text);
+/// @return kNotFound, kCorrupt (more than `max_bytes` long, which is found out before it is read)
+/// or kIoError, naming the file.
+[[nodiscard]] hal::Fault ReadTextFile(const std::filesystem::path& file, std::uintmax_t max_bytes,
+                                      std::string& text);
 
 }  // namespace disflow::host

@@ -8,19 +8,21 @@
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <sstream>
 #include <string>
 #include <utility>
+
+#include "disflow/host/obj_text.h"
 
 namespace disflow::host {
 
 namespace fs = std::filesystem;
 
 hal::Fault ReadObj(const fs::path& file, TriangleMesh& mesh) {
-  std::ifstream stream(file);
-  if (!stream || fs::is_directory(file)) {
-    return hal::MakeFault(Status::kNotFound, "%s: cannot be opened; an OBJ file is needed",
-                          file.c_str());
-  }
+  std::string text;
+  const hal::Fault fault = ReadObjText(file, text);
+  if (!fault.ok()) return fault;
+  std::istringstream stream(std::move(text));
   tinyobj::attrib_t attributes;
   std::vector<tinyobj::shape_t> shapes;
   std::vector<tinyobj::material_t> materials;

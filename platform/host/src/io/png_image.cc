@@ -10,6 +10,7 @@
 #include <cstring>
 #include <memory>
 #include <string>
+#include <system_error>
 
 #include "disflow/host/image_limits.h"
 #include "file_output.h"
@@ -27,6 +28,7 @@ using FilePointer = std::unique_ptr<std::FILE, FileCloser>;
 /// What libpng's error callback leaves behind before it jumps.
 struct PngError {
   char text[128] = {};
+  bool too_large = false;  ///< A side is longer than was allowed.
 };
 
 [[noreturn]] void OnError(png_structp png, png_const_charp message) {
@@ -34,7 +36,22 @@ struct PngError {
   (void)std::snprintf(error->text, sizeof(error->text), "%s", message);
   png_longjmp(png, 1);
 }
-void OnWarning(png_structp /*png*/, png_const_charp /*message*/) {}
+/// libpng says why it refuses a header only in the warnings before.
+void OnWarning(png_structp png, png_const_charp message) {
+  auto* error = static_cast<PngError*>(png_get_error_ptr(png));
+  if (std::strstr(message, "exceeds user limit") != nullptr) error->too_large = true;
+}
+
+/// What a file could make libpng allocate or unpack beside the pixels: none of it is needed.
+void RefuseExtras(png_structp png) {
+  constexpr png_alloc_size_t kMaxChunk_bytes = 65536;
+  constexpr png_uint_32 kMaxKeptChunks = 1;
+  constexpr int kAllAncillary = -1;
+  png_set_user_limits(png, kMaxImageSide_px, kMaxImageSide_px);
+  png_set_chunk_malloc_max(png, kMaxChunk_bytes);
+  png_set_chunk_cache_max(png, kMaxKeptChunks);
+  png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, nullptr, kAllAncillary);
+}
 
 hal::Fault OpenFault(const fs::path& file) {
   const int error = errno;
@@ -57,7 +74,9 @@ class Reader {
   /// libpng leaves with longjmp, so nothing here may own memory.
   [[nodiscard]] Status ReadHeader(std::FILE* file) {
     if (png_ == nullptr || info_ == nullptr) return Status::kIoError;
-    if (setjmp(png_jmpbuf(png_)) != 0) return Status::kCorrupt;
+    if (setjmp(png_jmpbuf(png_)) != 0)
+      return error_.too_large ? Status::kImageTooLarge : Status::kCorrupt;
+    RefuseExtras(png_);
     png_init_io(png_, file);
     png_read_info(png_, info_);
     if (png_get_color_type(png_, info_) != PNG_COLOR_TYPE_GRAY ||
@@ -95,6 +114,24 @@ class Reader {
   png_structp png_ = nullptr;
   png_infop info_ = nullptr;
 };
+
+/// Before anything is allocated for the pixels.
+hal::Fault CheckSize(const fs::path& path, const Reader& reader) {
+  const std::uint64_t pixels = std::uint64_t{reader.width()} * reader.height();
+  if (pixels > kMaxImagePixels) {
+    return hal::MakeFault(Status::kImageTooLarge,
+                          "%s: its header says %ux%u pixels; %ju can be read", path.c_str(),
+                          reader.width(), reader.height(), std::uintmax_t{kMaxImagePixels});
+  }
+  // Deflate cannot say more than 1032 bytes with one.
+  constexpr std::uint64_t kPixelsPerByte = 8 * 1032;  // of one bit each
+  std::error_code error;
+  const std::uintmax_t bytes = fs::file_size(path, error);
+  if (error || pixels / kPixelsPerByte <= bytes) return {};
+  return hal::MakeFault(Status::kTruncated,
+                        "%s: is %ju bytes long, too short for the %ux%u pixels of its header",
+                        path.c_str(), bytes, reader.width(), reader.height());
+}
 
 /// Rows of an image to be written.
 struct Raster {
@@ -158,16 +195,16 @@ hal::Fault ReadGrayPng(const fs::path& path, GrayImage& image) {
   if (file == nullptr) return OpenFault(path);
   Reader reader;
   if (const Status status = reader.ReadHeader(file.get()); status != Status::kOk) {
+    if (status == Status::kImageTooLarge) {
+      return hal::MakeFault(status, "%s: its header says more than %u pixels a side", path.c_str(),
+                            kMaxImageSide_px);
+    }
     const char* reason = status == Status::kUnsupported
                              ? "is not a plain grey PNG; 8 or 16 bit grey is needed"
                              : reader.error();
     return hal::MakeFault(status, "%s: %s", path.c_str(), reason);
   }
-  if (reader.width() > kMaxImageSide_px || reader.height() > kMaxImageSide_px) {
-    return hal::MakeFault(Status::kImageTooLarge, "%s: %ux%u pixels; at most %ux%u can be read",
-                          path.c_str(), reader.width(), reader.height(), kMaxImageSide_px,
-                          kMaxImageSide_px);
-  }
+  if (const hal::Fault fault = CheckSize(path, reader); !fault.ok()) return fault;
   image.width_px = static_cast<int>(reader.width());
   image.height_px = static_cast<int>(reader.height());
   image.pixels.resize(std::size_t{reader.width()} * reader.height());

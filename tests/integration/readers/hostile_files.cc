@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "hostile_files.h"
+
+#include <zlib.h>
+
+#include <array>
+#include <cmath>
+#include <cstring>
+
+namespace disflow::test {
+namespace {
+
+constexpr std::size_t kMegabyte = 1'000'000;
+constexpr std::int64_t kHole = std::int64_t{20} << 30;
+
+std::string Nothing() { return {}; }
+std::string LineWithoutEnd() { return std::string(kMegabyte, '1'); }
+
+/// As many copies as fit into a megabyte.
+std::string Repeat(std::string_view begin, std::string_view part, std::string_view end = "") {
+  std::string text(begin);
+  while (text.size() + part.size() + end.size() <= kMegabyte) text += part;
+  return text.append(end);
+}
+
+/// Lines with a number each.
+std::string Numbered(std::string_view begin, std::string_view end) {
+  std::string text;
+  for (int i = 0; text.size() < kMegabyte; ++i)
+    text.append(begin).append(std::to_string(i)).append(end);
+  return text;
+}
+
+std::string BigEndian(std::uint32_t value) {
+  std::string bytes;
+  for (int shift = 24; shift >= 0; shift -= 8)
+    bytes += static_cast<char>(value >> static_cast<unsigned>(shift) & 0xFFU);
+  return bytes;
+}
+
+std::string Chunk(std::string_view type, std::string_view data) {
+  const std::string body = std::string(type).append(data);
+  const auto crc =
+      ::crc32(0, reinterpret_cast<const Bytef*>(body.data()), static_cast<uInt>(body.size()));
+  return BigEndian(static_cast<std::uint32_t>(data.size())) + body +
+         BigEndian(static_cast<std::uint32_t>(crc));
+}
+
+/// The first 33 bytes of a grey image of 16 bits.
+std::string PngHeader(std::uint32_t width, std::uint32_t height) {
+  return "\x89PNG\r\n\x1a\n" + Chunk("IHDR", BigEndian(width) + BigEndian(height) +
+                                                 std::string("\x10\x00\x00\x00\x00", 5));
+}
+
+std::string Deflated(std::size_t zeros) {
+  const std::string plain(zeros, '\0');
+  uLongf size = ::compressBound(static_cast<uLong>(zeros));
+  std::string packed(size, '\0');
+  (void)::compress2(reinterpret_cast<Bytef*>(packed.data()), &size,
+                    reinterpret_cast<const Bytef*>(plain.data()), static_cast<uLong>(zeros), 9);
+  packed.resize(size);
+  return packed;
+}
+
+std::string PngOf41Bytes() { return PngHeader(8192, 8192) + BigEndian(0x7FFFFFFF) + "IDAT"; }
+std::string PngOfWidth() { return PngHeader(0x7FFFFFFF, 1) + Chunk("IDAT", "x"); }
+std::string PngOfHeight() { return PngHeader(1, 0x7FFFFFFF) + Chunk("IDAT", "x"); }
+std::string PngOfSides() { return PngHeader(999'999, 999'999) + Chunk("IDAT", "x"); }
+std::string PngOfPixels() { return PngHeader(8192, 8192) + Chunk("IDAT", Deflated(100)); }
+std::string PngWithLongText() {
+  return PngHeader(8, 8) + BigEndian(0x7FFFFFFF) + "tEXt" + std::string(1000, 'a');
+}
+/// Each text unpacks to eight megabytes.
+std::string PngWithPackedTexts() {
+  const std::string text = Chunk("zTXt", std::string("a\0\0", 3) + Deflated(7'900'000));
+  return Repeat(PngHeader(8, 8), text);
+}
+std::string PngWithManyChunks() { return Repeat(PngHeader(8, 8), Chunk("teXt", "a")); }
+std::string PngWithEmptyData() { return Repeat(PngHeader(8, 8), Chunk("IDAT", "")); }
+
+std::string ObjOfOneFace() { return Repeat("v 0 0 0\nv 1 0 0\nv 0 1 0\nf", " 1 2 3", "\n"); }
+/// A circle, which has no corner that could be cut off without looking at all others.
+std::string ObjOfOneRoundFace() {
+  constexpr int kCorners = 30'000;
+  constexpr double kTurn_rad = 6.283185307179586;
+  std::string text;
+  std::string face = "f";
+  for (int i = 0; i < kCorners; ++i) {
+    const double angle_rad = kTurn_rad * i / kCorners;
+    text += "v " + std::to_string(std::cos(angle_rad)) + " " + std::to_string(std::sin(angle_rad)) +
+            " 0\n";
+    face += " " + std::to_string(i + 1);
+  }
+  return text + face + "\n";
+}
+std::string ObjWithTag() {
+  return "v 0 0 0\nt crease 2147483647/2147483647/2147483647 1 1 1\nf 1 1 9\n";
+}
+std::string ObjWithFarIndex() { return "v 0 0 0\nf 2147483647 2147483646 2147483645\n"; }
+std::string ObjOfShapes() { return Repeat("v 0 0 0\n", "o\nf 1 1 9\n"); }
+std::string ObjOfMaterials() { return "v 0 0 0\n" + Numbered("usemtl ", "\nf 1 1 9\n"); }
+std::string ObjOfVertices() { return Repeat("", "v\n"); }
+std::string ObjOfSkinWeights() { return Repeat("", "vw 1 2147483647 1\n"); }
+
+std::string FloatHeader(std::uint64_t width, std::uint64_t height) {
+  std::array<std::uint64_t, 2> size{width, height};
+  std::string bytes(sizeof(size), '\0');
+  std::memcpy(bytes.data(), size.data(), sizeof(size));
+  return bytes;
+}
+std::string FloatOfSides() { return FloatHeader(8192, 8192); }
+std::string FloatOfGiantSides() { return FloatHeader(~std::uint64_t{0}, 2); }
+
+std::string DeepJson() { return Repeat("", "["); }
+std::string DeepJsonObject() { return Repeat("", "{\"a\":"); }
+std::string LongJson() { return Repeat("[", "0,", "0]"); }
+std::string CameraOfSides() {
+  return R"({"width":8192,"height":8192,"fx":1,"fy":1,"cx":1,"cy":1})";
+}
+std::string CameraOfGiantSides() {
+  return R"({"width":16384,"height":16384,"fx":1,"fy":1,"cx":1,"cy":1})";
+}
+std::string OneField() { return Repeat("", "1 "); }
+std::string ManyLines() { return Repeat("", "a\n"); }
+
+std::string PlyHeader(std::string_view format, std::string_view elements) {
+  return std::string("ply\nformat ")
+      .append(format)
+      .append(" 1.0\n")
+      .append(elements)
+      .append("end_header\n");
+}
+std::string PlyOfVertices() {
+  return PlyHeader("ascii",
+                   "element vertex 18446744073709551615\nproperty float x\nproperty float y\n"
+                   "property float z\n");
+}
+std::string PlyWithoutProperties() {
+  return PlyHeader("ascii", "element vertex 18446744073709551615\n");
+}
+constexpr const char* kOneVertexAndFaces =
+    "element vertex 1\nproperty char x\nproperty char y\nproperty char z\n"
+    "element face 1\nproperty list uint char vertex_indices\n";
+std::string PlyOfAList() {
+  return PlyHeader("binary_little_endian", kOneVertexAndFaces) + std::string(7, '\xFF');
+}
+std::string PlyOfOneFace() {
+  // A list of 999,000 corners, of which most are there.
+  const std::string count{'\x58', '\x3E', '\x0F', '\x00'};
+  return PlyHeader("binary_little_endian", kOneVertexAndFaces) + std::string(3, '\0') + count +
+         std::string(998'000, '\0');
+}
+std::string PlyOfProperties() {
+  return Repeat("ply\nformat ascii 1.0\nelement vertex 1\n", "property char a\n");
+}
+std::string PlyOfElements() { return Repeat("ply\nformat ascii 1.0\n", "element a 9\n"); }
+std::string PlyOfManyElements() {
+  std::string text = Repeat("ply\nformat ascii 1.0\n", "element a 9999999999\n");
+  return text + "end_header\n";
+}
+
+std::string CsvOfColumns() { return Numbered("a", ",") + "\n1\n"; }
+std::string CsvOfStages() { return Numbered("a", "_ms,") + "\n1\n"; }
+std::string CsvOfEmptyColumns() { return Repeat("", ",", "\n1\n"); }
+
+std::string DeepToml() { return Repeat("a = ", "["); }
+std::string DeepTomlTable() { return Repeat("a = ", "{a="); }
+std::string TomlOfDots() { return Repeat("a", ".a", " = 1\n"); }
+std::string TomlOfDotsInAHead() { return Repeat("[a", ".a", "]\n"); }
+std::string TomlOfDottedLines() {
+  std::string line = Repeat("a", ".a").substr(0, 2001);
+  return line + " = 1\n" + Numbered("[" + line + ".b", "]\n");
+}
+std::string TomlOfKeys() { return Numbered("k", " = 1\n"); }
+std::string TomlOfObjects() { return Repeat("", "[[object]]\n"); }
+std::string TomlOfNumbers() { return Repeat("[run]\nseed = [", "1,", "1]\n"); }
+std::string TomlOfALongText() { return "sensor = \"" + std::string(kMegabyte, 'a'); }
+
+}  // namespace
+
+const std::vector<HostileFile>& HostileFiles() {
+  static const std::vector<HostileFile> files{
+      {"PngOf41Bytes", Reader::kPng, "a.png", PngOf41Bytes},
+      {"PngOfWidth", Reader::kPng, "a.png", PngOfWidth},
+      {"PngOfHeight", Reader::kPng, "a.png", PngOfHeight},
+      {"PngOfSides", Reader::kPng, "a.png", PngOfSides},
+      {"PngOfPixels", Reader::kPng, "a.png", PngOfPixels},
+      {"PngWithLongText", Reader::kPng, "a.png", PngWithLongText},
+      {"PngWithPackedTexts", Reader::kPng, "a.png", PngWithPackedTexts},
+      {"PngWithManyChunks", Reader::kPng, "a.png", PngWithManyChunks},
+      {"PngWithEmptyData", Reader::kPng, "a.png", PngWithEmptyData},
+      {"PngOfAHole", Reader::kPng, "a.png", PngOf41Bytes, kHole},
+      {"ObjOfOneFace", Reader::kObj, "a.obj", ObjOfOneFace},
+      {"ObjOfOneRoundFace", Reader::kObj, "a.obj", ObjOfOneRoundFace},
+      {"ObjWithTag", Reader::kObj, "a.obj", ObjWithTag},
+      {"ObjWithFarIndex", Reader::kObj, "a.obj", ObjWithFarIndex},
+      {"ObjOfShapes", Reader::kObj, "a.obj", ObjOfShapes},
+      {"ObjOfMaterials", Reader::kObj, "a.obj", ObjOfMaterials},
+      {"ObjOfVertices", Reader::kObj, "a.obj", ObjOfVertices},
+      {"ObjOfSkinWeights", Reader::kObj, "a.obj", ObjOfSkinWeights},
+      {"ObjOfOneLine", Reader::kObj, "a.obj", LineWithoutEnd},
+      {"ObjOfAHole", Reader::kObj, "a.obj", Nothing, kHole},
+      {"FloatOfSides", Reader::kFloatDepth, "depth/0.float", FloatOfSides},
+      {"FloatOfGiantSides", Reader::kFloatDepth, "depth/0.float", FloatOfGiantSides},
+      {"FloatOfAHole", Reader::kFloatDepth, "depth/0.float", FloatOfSides,
+       16 + std::int64_t{4} * 8192 * 8192},
+      {"CameraOfSides", Reader::kReplay, "cam_K.json", CameraOfSides},
+      {"CameraOfBrackets", Reader::kReplay, "cam_K.json", DeepJson},
+      {"CameraOfBraces", Reader::kReplay, "cam_K.json", DeepJsonObject},
+      {"CameraOfNumbers", Reader::kReplay, "cam_K.json", LongJson},
+      {"CameraOfAHole", Reader::kReplay, "cam_K.json", Nothing, kHole},
+      {"StampsOfOneLine", Reader::kReplay, "data.txt", LineWithoutEnd},
+      {"StampsOfManyFields", Reader::kReplay, "data.txt", OneField},
+      {"StampsOfManyLines", Reader::kReplay, "data.txt", ManyLines},
+      {"StampsOfAHole", Reader::kReplay, "data.txt", Nothing, kHole},
+      {"WorldPosesOfManyFields", Reader::kReplay, "T_wc.txt", OneField},
+      {"WorldPosesOfManyLines", Reader::kReplay, "T_wc.txt", ManyLines},
+      {"WorldPosesOfAHole", Reader::kReplay, "T_wc.txt", Nothing, kHole},
+      {"ModelOfOneFace", Reader::kModel, "a.obj", ObjOfOneFace},
+      {"ModelOfOneRoundFace", Reader::kModel, "a.obj", ObjOfOneRoundFace},
+      {"ModelWithTag", Reader::kModel, "a.obj", ObjWithTag},
+      {"ModelWithFarIndex", Reader::kModel, "a.obj", ObjWithFarIndex},
+      {"ModelOfShapes", Reader::kModel, "a.obj", ObjOfShapes},
+      {"ModelOfMaterials", Reader::kModel, "a.obj", ObjOfMaterials},
+      {"ModelOfSkinWeights", Reader::kModel, "a.obj", ObjOfSkinWeights},
+      {"ModelOfAHole", Reader::kModel, "a.obj", Nothing, kHole},
+      {"PointsOfOneLine", Reader::kModel, "a.xyz", OneField},
+      {"PointsOfManyLines", Reader::kModel, "a.xyz", ManyLines},
+      {"PointsOfAHole", Reader::kModel, "a.xyz", Nothing, kHole},
+      {"PlyOfVertices", Reader::kPly, "a.ply", PlyOfVertices},
+      {"PlyWithoutProperties", Reader::kPly, "a.ply", PlyWithoutProperties},
+      {"PlyOfAList", Reader::kPly, "a.ply", PlyOfAList},
+      {"PlyOfOneFace", Reader::kPly, "a.ply", PlyOfOneFace},
+      {"PlyOfProperties", Reader::kPly, "a.ply", PlyOfProperties},
+      {"PlyOfElements", Reader::kPly, "a.ply", PlyOfElements},
+      {"PlyOfManyElements", Reader::kPly, "a.ply", PlyOfManyElements},
+      {"PlyOfOneLine", Reader::kPly, "a.ply", LineWithoutEnd},
+      {"PlyOfAHole", Reader::kPly, "a.ply", PlyOfVertices, kHole},
+      {"CsvOfOneLine", Reader::kCsv, "a.csv", LineWithoutEnd},
+      {"CsvOfColumns", Reader::kCsv, "a.csv", CsvOfColumns},
+      {"CsvOfStages", Reader::kCsv, "a.csv", CsvOfStages},
+      {"CsvOfEmptyColumns", Reader::kCsv, "a.csv", CsvOfEmptyColumns},
+      {"CsvOfManyLines", Reader::kCsv, "a.csv", ManyLines},
+      {"CsvOfAHole", Reader::kCsv, "a.csv", Nothing, kHole},
+      {"TruthOfOneLine", Reader::kTruth, "gt/poses.txt", OneField},
+      {"TruthOfManyLines", Reader::kTruth, "gt/poses.txt", ManyLines},
+      {"TruthOfAHole", Reader::kTruth, "gt/poses.txt", Nothing, kHole},
+      {"ImagesOfGiantSides", Reader::kImages, "cam_K.json", CameraOfGiantSides},
+      {"ImagesOfBrackets", Reader::kImages, "cam_K.json", DeepJson},
+      {"ImagesOfAHole", Reader::kImages, "depth/0.float", FloatOfSides, kHole},
+      {"SettingsOfBrackets", Reader::kSettings, "a.toml", DeepToml},
+      {"SettingsOfBraces", Reader::kSettings, "a.toml", DeepTomlTable},
+      {"SettingsOfDots", Reader::kSettings, "a.toml", TomlOfDots},
+      {"SettingsOfDotsInAHead", Reader::kSettings, "a.toml", TomlOfDotsInAHead},
+      {"SettingsOfDottedLines", Reader::kSettings, "a.toml", TomlOfDottedLines},
+      {"SettingsOfKeys", Reader::kSettings, "a.toml", TomlOfKeys},
+      {"SettingsOfALongText", Reader::kSettings, "a.toml", TomlOfALongText},
+      {"SettingsOfAHole", Reader::kSettings, "a.toml", Nothing, kHole},
+      {"CameraFileOfBrackets", Reader::kCamera, "a.toml", DeepToml},
+      {"CameraFileOfDots", Reader::kCamera, "a.toml", TomlOfDots},
+      {"CameraFileOfObjects", Reader::kCamera, "a.toml", TomlOfObjects},
+      {"CameraFileOfNumbers", Reader::kCamera, "a.toml", TomlOfNumbers},
+      {"CameraFileOfAHole", Reader::kCamera, "a.toml", Nothing, kHole},
+  };
+  return files;
+}
+
+}  // namespace disflow::test
