@@ -14,11 +14,11 @@
 #include <limits>
 #include <string>
 
-#include "disflow/config.h"
 #include "disflow/depth/depth_reader.h"
 #include "disflow/host/open_sensor.h"
 #include "errors.h"
 #include "estimate_csv.h"
+#include "object_interior.h"
 
 namespace disflow::apps {
 namespace {
@@ -28,20 +28,6 @@ namespace o3d = open3d;
 constexpr double kVoxel_m = 0.002;
 constexpr double kTruncation_m = 4.0 * kVoxel_m;
 
-/// Whether a pixel is the object's and not at its outline, which the tracker leaves out as well:
-/// pixels there mix the object's depth with what is behind it.
-bool IsInterior(const MaskView& mask, int u, int v) {
-  if (!mask.given()) return true;
-  const int border_px = SamplerConfig{}.border_px;
-  for (int row = v - border_px; row <= v + border_px; ++row) {
-    if (row < 0 || row >= mask.height_px) return false;
-    for (int column = u - border_px; column <= u + border_px; ++column) {
-      if (column < 0 || column >= mask.width_px || mask.row(row)[column] == 0) return false;
-    }
-  }
-  return true;
-}
-
 /// The object's depth in metres, 0 elsewhere.
 o3d::geometry::Image MaskedDepth(const DepthFrame& frame) {
   const DepthReader depth(frame.depth, 0.0F, std::numeric_limits<float>::max());
@@ -49,7 +35,8 @@ o3d::geometry::Image MaskedDepth(const DepthFrame& frame) {
   image.Prepare(depth.width_px(), depth.height_px(), 1, sizeof(float));
   for (int v = 0; v < depth.height_px(); ++v) {
     for (int u = 0; u < depth.width_px(); ++u) {
-      *image.PointerAt<float>(u, v) = IsInterior(frame.mask, u, v) ? depth.AtOrZero(u, v) : 0.0F;
+      *image.PointerAt<float>(u, v) =
+          bench::IsInterior(frame.mask, u, v) ? depth.AtOrZero(u, v) : 0.0F;
     }
   }
   return image;
