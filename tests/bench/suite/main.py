@@ -4,6 +4,7 @@
 accuracy: tracks and judges the whole table, checks every figure against its goal.
 ablation: switches one part of the method off at a time.
 objects: two and four objects that pass in front of each other, and the time with one and two threads.
+peers: generalised and point-to-plane ICP of PCL beside the tracker, on the same recorded frames.
 """
 
 import argparse
@@ -15,6 +16,7 @@ import ablation
 import accuracy
 import objects
 import pages
+import peers
 import plots
 import runs
 import sequences
@@ -23,6 +25,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[3]
 
 TUNING_SEEDS = [1, 2, 3]
 FINAL_SEEDS = [11, 12, 13, 14, 15]
+PEER_SEEDS = FINAL_SEEDS[:3]
 
 
 def parse(words):
@@ -32,9 +35,13 @@ def parse(words):
     parser.add_argument("--out", type=pathlib.Path, help="folder for what is measured [build/WHAT]")
     parser.add_argument("--docs", type=pathlib.Path, default=ROOT / "docs", help="folder of the pages [docs]")
     parser.add_argument("--seeds", type=pages.seeds, metavar="LIST",
-                        help="e.g. 11-15 or 1,4 [accuracy: 11-15, which nothing may be tuned on; others: 1-3]")
+                        help="e.g. 11-15 or 1,4 [accuracy: 11-15, which nothing may be tuned on; peers: 11-13; others: 1-3]")
     parser.add_argument("--tune", action="store_true", help="seeds 1-3, for choosing settings; the pages stay as they are")
     parser.add_argument("--quick", action="store_true", help="seed 1 alone; the pages stay as they are")
+    parser.add_argument("--frames", type=int, default=300, help="peers: of every sequence [300]")
+    parser.add_argument("--objects", action="append", metavar="FILE.obj", type=pathlib.Path, default=[],
+                        help="peers: a scanned mesh in metres, in addition; may be repeated")
+    parser.add_argument("--remark", default="", help="peers: what to say on the page of how it was measured")
     parser.add_argument("--only", action="append", metavar="TEXT", default=[],
                         help="only rows whose name contains this, may be repeated; the pages stay as they are")
     return parser.parse_args(words)
@@ -76,14 +83,30 @@ def measure_objects(options, seeds, whole):
     print(text)
 
 
-MEASURES = {"accuracy": measure_accuracy, "ablation": measure_ablation, "objects": measure_objects}
+def measure_peers(options, seeds, whole):
+    rows = peers.rows(options.quick, options.objects, () if whole else options.only)
+    results = peers.measure(runs.Programs(options.bin, options.out), rows, seeds, options.frames)
+    text = peers.page(results, seeds, options.frames, peers.today(), options.remark)
+    if whole:
+        peers.write_json(options.docs / "peers.json", results)
+        pages.replace_part(options.docs / "results.md", "peers", text)
+    print(text)
+
+
+MEASURES = {
+    "accuracy": measure_accuracy,
+    "ablation": measure_ablation,
+    "objects": measure_objects,
+    "peers": measure_peers,
+}
+# Seeds that nothing was tuned on, where figures are published.
+SEEDS = {"accuracy": FINAL_SEEDS, "peers": PEER_SEEDS}
 
 
 def main(words):
     options = parse(words)
-    is_accuracy = options.what == "accuracy"
     options.out = options.out or ROOT / "build" / options.what
-    seeds = options.seeds or (FINAL_SEEDS if is_accuracy and not options.tune else TUNING_SEEDS)
+    seeds = options.seeds or (TUNING_SEEDS if options.tune else SEEDS.get(options.what, TUNING_SEEDS))
     if options.quick:
         seeds = TUNING_SEEDS[:1]
     # What is measured only in part does not belong on a page.

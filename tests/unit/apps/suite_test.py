@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The suite's own arithmetic: what counts as a goal that is met, and what is written where."""
 
+import datetime
 import json
 import pathlib
 import sys
@@ -15,6 +16,7 @@ import figures
 import main
 import objects
 import pages
+import peers
 import runs
 import sequences
 
@@ -125,6 +127,56 @@ class Rows(unittest.TestCase):
             self.assertEqual(asked, {"<=", ">="} if row.mesh and "noise=clean" not in row.scene else set(), row.name)
 
 
+class Peers(unittest.TestCase):
+    def results(self, tracker, gicp):
+        """@param tracker, gicp ADD-AUC, of GICP by setting."""
+        def of(value):
+            return {11: dict({name: 1.0 for name in peers.SHOWN}, add_auc=value)}
+
+        return {"box, fast, clean": {peers.TRACKER: {"": of(tracker)},
+                                     "GICP": {setting: of(value) for setting, value in gicp.items()},
+                                     "point-to-plane": {"3/10/20": of(50.0)}}}
+
+    def test_best_setting_is_that_of_the_highest_mean_not_of_the_luckiest_seed(self):
+        lucky = {11: run_with(add_auc=99.0), 12: run_with(add_auc=10.0)}
+        steady = {11: run_with(add_auc=90.0), 12: run_with(add_auc=91.0)}
+        setting, summary = peers.best({"lucky": lucky, "steady": steady})
+        self.assertEqual(setting, "steady")
+        self.assertAlmostEqual(summary.mean("add_auc"), 90.5)
+
+    def test_better_velocity_counts_each_for_itself(self):
+        plain = dict(figures.FAILED, v=1.0, w=9.0, e_t=0.5)
+        extrapolated = dict(figures.FAILED, v=2.0, w=8.0, e_t=0.5)
+        judged = peers.judge_velocities(plain, extrapolated)
+        self.assertEqual((judged["v"], judged["w"], judged["e_t"]), (1.0, 8.0, 0.5))
+        self.assertIsNone(peers.judge_velocities(figures.FAILED, figures.FAILED)["v"])
+
+    def test_page_says_where_a_peer_is_ahead(self):
+        results = self.results(98.0, {"a": 97.0, "b": 99.25})
+        self.assertEqual(peers.ahead(results), [("box, fast, clean", "GICP", 1.25)])
+        text = peers.page(results, [11], 150, datetime.date(2026, 1, 2), "busy")
+        self.assertIn("|  | GICP b | **99.25** |", text)
+        self.assertIn("| box, fast, clean | DisFlow | 98.00 |", text)
+        self.assertIn("box, fast, clean: GICP by 1.25", text)
+        self.assertIn("2026-01-02, seed 11, 150 frames each, busy.", text)
+
+    def test_page_says_that_no_peer_is_ahead(self):
+        text = peers.page(self.results(99.5, {"a": 99.0}), [11], 150, datetime.date(2026, 1, 2))
+        self.assertIn("nowhere", text)
+        self.assertIn("| box, fast, clean | DisFlow | **99.50** |", text)
+
+    def test_rows_are_objects_times_noises_and_scanned_meshes_in_addition(self):
+        self.assertEqual(len(peers.rows(False)), len(peers.OBJECTS) * len(peers.NOISES))
+        self.assertLess(len(peers.rows(True)), len(peers.rows(False)))
+        scanned = peers.rows(False, [pathlib.Path("a/mug_2.obj")], ["mug_2"])
+        self.assertEqual([row.name for row in scanned], [f"mug_2, fast, {noise}" for noise in peers.NOISES])
+        self.assertEqual({row.thing for row in scanned}, {"a/mug_2.obj"})
+
+    def test_settings_of_a_peer_are_told_apart_on_the_page(self):
+        for peer in peers.PEERS:
+            self.assertEqual(len({setting.show() for setting in peer.settings}), len(peer.settings))
+
+
 class Pages(unittest.TestCase):
     def test_seeds_are_numbers_and_spans(self):
         self.assertEqual(pages.seeds("11-13,4"), [11, 12, 13, 4])
@@ -152,7 +204,7 @@ class Pages(unittest.TestCase):
             self.assertEqual(page.read_text(encoding="utf-8"), "all by hand\n")
 
     def test_the_pages_in_the_tree_have_their_markers(self):
-        for name, part in (("results.md", "accuracy"), ("method.md", "ablation")):
+        for name, part in (("results.md", "accuracy"), ("results.md", "peers"), ("method.md", "ablation")):
             text = (main.ROOT / "docs" / name).read_text(encoding="utf-8")
             self.assertIn(f"<!-- {part}:begin", text)
             self.assertIn(f"<!-- {part}:end -->", text)

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # The functions of ./dev, on a machine whose package database is made up.
-# shellcheck source=/dev/null
+# shellcheck source=/dev/null disable=SC2317  # ./dev calls what is defined here
 source "$(dirname "${BASH_SOURCE[0]}")/../../../dev"
 unset CI
 failures=0
@@ -54,6 +54,16 @@ expect 42 build release -DDISFLOW_WITH_VIEW=OFF --target disflow_track
 expect 1 build release --no-such-option
 expect 1 run_tests --repeat
 expect 1 run_tests --repeat none
+
+# --- bench: PCL is for the peers alone
+need() { [[ " $* " != *" libpcl-dev "* ]] || exit 42; }
+build() { exit 43; }
+expect 42 run_bench peers
+expect 43 run_bench ablation
+need() { :; }
+build() { [[ " $* " = *" -DDISFLOW_BUILD_PEERS=ON "* ]] && exit 44; exit 43; }
+expect 44 run_bench peers
+expect 43 run_bench
 
 [ "$failures" -eq 0 ] || exit 1
 echo "all as expected"
