@@ -123,6 +123,13 @@ std::string CameraOfGiantSides() {
 std::string OneField() { return Repeat("", "1 "); }
 std::string ManyLines() { return Repeat("", "a\n"); }
 
+std::string TooManyFrames() {
+  constexpr int kFrames = 600'000;
+  std::string text;
+  for (int i = 0; i < kFrames; ++i) text += "0 1\n";
+  return text;
+}
+
 std::string PlyHeader(std::string_view format, std::string_view elements) {
   return std::string("ply\nformat ")
       .append(format)
@@ -212,6 +219,7 @@ const std::vector<HostileFile>& HostileFiles() {
       {"StampsOfOneLine", Reader::kReplay, "data.txt", LineWithoutEnd},
       {"StampsOfManyFields", Reader::kReplay, "data.txt", OneField},
       {"StampsOfManyLines", Reader::kReplay, "data.txt", ManyLines},
+      {"StampsOfTooManyFrames", Reader::kReplay, "data.txt", TooManyFrames},
       {"StampsOfAHole", Reader::kReplay, "data.txt", Nothing, kHole},
       {"WorldPosesOfManyFields", Reader::kReplay, "T_wc.txt", OneField},
       {"WorldPosesOfManyLines", Reader::kReplay, "T_wc.txt", ManyLines},

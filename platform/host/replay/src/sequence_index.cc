@@ -80,7 +80,7 @@ void ListByFiles(const std::vector<NumberedFile>& files, std::vector<RecordedFra
   for (const NumberedFile& file : files) {
     RecordedFrame& frame = frames.emplace_back();
     frame.number = file.number;
-    frame.depth = file.path;
+    frame.depth = file.path.string();
     // From one second on: a stamp of zero means "not set" to some programs.
     const auto k = static_cast<StampNs>(frames.size() - 1);
     frame.stamp_ns = kNsPerS + k * kNsPerS / kUsualRate_hz;
@@ -109,12 +109,13 @@ hal::Fault ListByStamps(const fs::path& path, const std::vector<NumberedFile>& f
       return table.LineFault(row, "an image number and a stamp in seconds are needed");
     const auto found = missing_line.find(frame.number);
     if (found != missing_line.end()) {
-      frame.depth = found->second->path;
+      frame.depth = found->second->path.string();
       missing_line.erase(found);
     } else {
       const NumberedFile& example = files.front();
-      frame.depth = example.path.parent_path() / (example.prefix + std::to_string(frame.number) +
-                                                  example.path.extension().string());
+      frame.depth = (example.path.parent_path() / (example.prefix + std::to_string(frame.number) +
+                                                   example.path.extension().string()))
+                        .string();
     }
   }
   std::vector<NumberedFile> unlisted;

@@ -14,8 +14,9 @@ namespace disflow::host {
 
 /// One image of a recorded sequence.
 struct RecordedFrame {
-  std::uint64_t number = 0;     ///< In the names of its files.
-  std::filesystem::path depth;  ///< May not exist, if the sequence lists it all the same.
+  std::uint64_t number = 0;  ///< In the names of its files.
+  /// May not exist, if the sequence lists it all the same. A path would take four times the memory.
+  std::string depth;
   /// One per object, in the order of their labels; empty = this image has none.
   std::vector<std::filesystem::path> masks;
   StampNs stamp_ns = 0;

@@ -53,7 +53,8 @@ hal::Fault TextTable::Read(const fs::path& file) {
   file_ = file;
   rows_.clear();
   constexpr std::uintmax_t kMaxBytes = std::uintmax_t{1} << 26U;
-  constexpr std::size_t kMaxFields = std::size_t{1} << 22U;
+  constexpr std::size_t kMaxRows = std::size_t{1} << 19U;
+  constexpr std::size_t kMaxFields = 8 * kMaxRows;
   const hal::Fault fault = ReadTextFile(file, kMaxBytes, text_);
   if (!fault.ok()) return fault;
   std::string_view rest = text_;
@@ -63,7 +64,8 @@ hal::Fault TextTable::Read(const fs::path& file) {
     rest.remove_prefix(std::min(text.size() + 1, rest.size()));
     TableRow row{line, SplitFields(text)};
     fields += row.fields.size();
-    if (fields > kMaxFields) return LineFault(row, "more than four million fields are too many");
+    if (fields > kMaxFields || rows_.size() == kMaxRows)
+      return LineFault(row, "more than half a million lines, or four million fields, are too many");
     if (!row.fields.empty()) rows_.push_back(std::move(row));
   }
   return {};

@@ -24,7 +24,7 @@ class TextTable {
   TextTable(const TextTable&) = delete;
   TextTable& operator=(const TextTable&) = delete;
 
-  /// @return kNotFound, kCorrupt (absurdly large: room for hours of frames) or kIoError, naming the
+  /// @return kNotFound, kCorrupt (absurdly large: there is room for hours) or kIoError, naming the
   /// file.
   [[nodiscard]] hal::Fault Read(const std::filesystem::path& file);
   [[nodiscard]] const std::vector<TableRow>& rows() const { return rows_; }
