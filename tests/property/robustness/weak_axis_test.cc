@@ -62,8 +62,8 @@ TEST_P(WeakAxis, OfABox_IsNeverNamed) {
 // Correlated noise bends the model's own normals, which the frames' show.
 INSTANTIATE_TEST_SUITE_P(Noise, WeakAxis,
                          ::testing::Values(host::NoiseKind::kWhite, host::NoiseKind::kD415),
-                         [](const auto& info) {
-                           return info.param == host::NoiseKind::kWhite ? "White" : "D415";
+                         [](const auto& noise) {
+                           return noise.param == host::NoiseKind::kWhite ? "White" : "D415";
                          });
 
 }  // namespace
