@@ -146,9 +146,10 @@ constexpr void VisitFields(ConfigType& config, Visitor&& visitor) {
         "steps per starting pose");
   field("registration.score_points", reg.score_points, 20, 500, "1",
         "samples used to score a pose");
-  field("registration.gradient_std_rad", reg.gradient_std_rad, 0.0, 1.0, "rad",
-        "least error of the field's gradients, to which each frame adds what its normals show; what "
-        "it makes up for a rotation does not count as known");
+  field(
+      "registration.gradient_std_rad", reg.gradient_std_rad, 0.0, 1.0, "rad",
+      "least error of the field's gradients, to which each frame adds what its normals show; what "
+      "it makes up for a rotation does not count as known");
   field("registration.white_noise_share", reg.white_noise_share, 0.01, 100.0, "1",
         "share of the pose covariance that changes from frame to frame, as the twist filter takes "
         "it");

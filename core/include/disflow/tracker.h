@@ -17,13 +17,13 @@
 #include "disflow/flow/twist_filter.h"
 #include "disflow/limits.h"
 #include "disflow/memory/stage_scratch.h"
-#include "disflow/stage_stopwatch.h"
 #include "disflow/status.h"
 
 namespace disflow {
 
 struct ModelAgreement;
 struct PoseSearchPrior;
+class StageStopwatch;
 
 /// Tracks and reconstructs one rigid object (the paper's section V). Owns all of its memory by
 /// value and never allocates: `static Tracker<profiles::Edge> tracker;` lives in .bss. Not

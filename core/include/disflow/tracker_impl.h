@@ -5,6 +5,7 @@
 #include "disflow/depth/segmenter_impl.h"
 #include "disflow/field/known_surface.h"
 #include "disflow/flow/model_agreement.h"
+#include "disflow/stage_stopwatch.h"
 #include "disflow/tracker.h"
 #include "disflow/tracker_model_impl.h"
 #include "disflow/tracker_pose_impl.h"

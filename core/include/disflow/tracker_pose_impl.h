@@ -203,8 +203,12 @@ template <CapacityProfile Limits>
 typename Tracker<Limits>::PoseCovariance Tracker<Limits>::CovarianceOf(
     const Aligned& aligned, StampNs stamp_ns) const noexcept {
   constexpr float kLongest_s = 0.6F;  // a turn may then be anything
-  const PoseUncertainty uncertainty =
-      FindPoseUncertainty(aligned.information, config_.registration.gradient_std_rad);
+  const float least_gradient_std = config_.registration.gradient_std_rad;
+  const PoseUncertainty uncertainty = FindPoseUncertainty(aligned.information, least_gradient_std);
+  // From frame to frame the model errs alike.
+  RegistrationInformation of_change = aligned.information;
+  of_change.gradient_variance_rad2 = 0.0F;
+  const PoseUncertainty change = FindPoseUncertainty(of_change, least_gradient_std);
   const Mat3 R_co = aligned.T_oc.rotation().transpose();
   const Vec3 to_origin_m = -aligned.center_m;
   const auto in_camera = [&](const Mat6& covariance_o) {
@@ -215,7 +219,7 @@ typename Tracker<Limits>::PoseCovariance Tracker<Limits>::CovarianceOf(
 
   PoseCovariance result;
   result.solved = uncertainty.solved;
-  result.white = config_.registration.white_noise_share * in_camera(uncertainty.covariance);
+  result.white = config_.registration.white_noise_share * in_camera(change.covariance);
   result.reported =
       in_camera(WithDrift(uncertainty.covariance, aligned.generation, config_.registration));
   if (!uncertainty.IsComplete()) {
