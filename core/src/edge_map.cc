@@ -72,7 +72,9 @@ int FindNearestEdge(std::span<const ModelEdge> edges, const EdgePoint& point,
                     float radius_m) noexcept {
   int nearest = -1;
   float nearest_squared = radius_m * radius_m;
+  const float least_weight = point.steady ? 0.0F : kWellKnownWeight;
   for (std::size_t i = 0; i < edges.size(); ++i) {
+    if (edges[i].weight < least_weight) continue;
     const float squared = (edges[i].position_m - point.position_m).squaredNorm();
     if (squared < nearest_squared && Agree(edges[i], point)) {
       nearest_squared = squared;

@@ -48,6 +48,9 @@ void ResidualSums::Add(const Residual& residual, const ResidualWeighting& weight
     case ResidualStatus::kUnmatched:
       ++unmatched;
       return;
+    case ResidualStatus::kUnexpected:
+      ++unexpected;
+      return;
     case ResidualStatus::kNormalMismatch:
       ++normal_mismatch;
       return;

@@ -5,8 +5,8 @@ namespace disflow {
 
 EdgePoint operator*(const PoseObjectFromCamera& T_oc, const EdgePoint& point) noexcept {
   const Mat3& r = T_oc.rotation();
-  return {T_oc * point.position_m, r * point.direction, r * point.normal,       r * point.ray,
-          r * point.outward,       point.variance_m2,   point.depth_variance_m2};
+  return {T_oc * point.position_m, r * point.direction, r * point.normal,        r * point.ray,
+          r * point.outward,       point.variance_m2,   point.depth_variance_m2, point.steady};
 }
 
 }  // namespace disflow

@@ -87,6 +87,34 @@ TEST_F(EdgeMapTest, PointFartherAlongTheEdge_DoesNotMoveIt) {
   EXPECT_EQ(Nearest(PointAt(0.0F))->position_m, Vec3(0.0F, 0.0F, 0.5F));
 }
 
+TEST_F(EdgeMapTest, PointThatIsNotSteady_ChangesNothing) {
+  EdgePoint doubtful = PointAt(0.001F);
+  doubtful.steady = false;
+  Insert(doubtful);
+  EXPECT_EQ(map_.size(), 0);
+  Insert(PointAt(0.0F));
+  Insert(doubtful);
+  ASSERT_EQ(map_.size(), 1);
+  EXPECT_EQ(Nearest(PointAt(0.0F))->weight, 1.0F);
+}
+
+TEST_F(EdgeMapTest, PointThatIsNotSteady_FindsWellKnownEdgesOnly) {
+  EdgePoint doubtful = PointAt(0.0F);
+  doubtful.steady = false;
+  for (float weight = 1.0F; weight < kWellKnownWeight; weight += 1.0F) {
+    Insert(PointAt(0.0F));
+    ASSERT_EQ(Nearest(PointAt(0.0F))->weight, weight);
+    EXPECT_EQ(Nearest(doubtful), nullptr);
+  }
+  Insert(PointAt(0.0F));
+  EXPECT_NE(Nearest(doubtful), nullptr);
+  // A nearer one that was seen once is passed over.
+  doubtful.position_m.y() = 2.0F * kMerge_m;
+  Insert(PointAt(0.0F, 2.0F * kMerge_m));
+  ASSERT_EQ(map_.size(), 2);
+  EXPECT_EQ(Nearest(doubtful)->weight, kWellKnownWeight);
+}
+
 TEST_F(EdgeMapTest, OldEdge_StillFollowsWhereItIsSeen) {
   for (int i = 0; i < 1000; ++i) Insert(PointAt(0.0F, 0.0F));
   for (int i = 0; i < 100; ++i) Insert(PointAt(0.0F, 0.001F));

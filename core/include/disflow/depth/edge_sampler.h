@@ -43,6 +43,12 @@ class EdgeSampler {
   static constexpr int kProbePx = 6;
   static constexpr int kShadowPx = 64;
   static constexpr int kBackgroundPixels = 3;
+  // Between the normals beside the outline and farther in, rad. On round things the outline is no
+  // edge; on noisy images few windows of a flat face agree by one standard deviation, nearly all by
+  // three.
+  static constexpr float kFlatTilt = 0.08F;
+  static constexpr float kMostSteadyTilt = 0.3F;
+  static constexpr float kMostTilt = 0.5F;
   static constexpr int kFlyingPx = 2;  ///< Next to an outline, where pixels may be mixed ones.
 
   [[nodiscard]] static bool MakeEdge(const DepthReader& depth, const PinholeCamera& camera,
@@ -61,9 +67,10 @@ class EdgeSampler {
     const auto inner = surface_at(first_px + 2.0F * step);
     if (!near.valid || !inner.valid || near.cos_incidence < config.edge_min_cos_incidence)
       return false;
-    const float tilt_variance = near.normal_variance + inner.normal_variance;
-    const float allowed_tilt = std::min(0.3F, 0.08F + std::sqrt(tilt_variance));
-    if ((near.normal - inner.normal).norm() > allowed_tilt) return false;
+    const float tilt = (near.normal - inner.normal).norm();
+    const float tilt_std = std::sqrt(near.normal_variance + inner.normal_variance);
+    if (tilt > std::min(kMostTilt, kFlatTilt + 3.0F * tilt_std)) return false;
+    edge.steady = tilt <= std::min(kMostSteadyTilt, kFlatTilt + tilt_std);
 
     const Vec2 place = point.At(-point.distance_px);
     const Vec3 ray = camera.Ray(place.x(), place.y());

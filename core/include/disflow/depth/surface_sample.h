@@ -27,6 +27,8 @@ struct EdgePoint {
   Vec3 outward = Vec3::Zero();
   float variance_m2 = 0.0F;        ///< Of the position along `outward`.
   float depth_variance_m2 = 0.0F;  ///< Of the position along the ray.
+  /// The surface beside it is flat beyond doubt. Other points make no edges, but find known ones.
+  bool steady = true;
 };
 
 /// An edge of the camera frame in the object frame.

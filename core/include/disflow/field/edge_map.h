@@ -41,6 +41,10 @@ struct ModelEdge {
 /// Observations after which an edge forgets as much as it learns.
 inline constexpr float kMaxEdgeWeight = 20.0F;
 
+/// Observations after which an edge, known to a third of a point's error, is found by points that
+/// are not steady. Outlines of round things make edges by chance, but seldom as often in one place.
+inline constexpr float kWellKnownWeight = 8.0F;
+
 /// Fuses a point into an edge.
 void MergeIntoEdge(const EdgePoint& point, std::uint32_t frame, ModelEdge& edge) noexcept;
 
@@ -74,10 +78,11 @@ class EdgeMap {
     return nearest < 0 ? nullptr : &edges_[nearest];
   }
 
-  /// Fuses a point into the edge near it, or stores it, if the map is full in place of another.
+  /// Fuses a steady point into the edge near it, or stores it, if the map is full for another.
   /// @param frame Number of the frame, not decreasing.
   void Insert(const EdgePoint& point, float merge_radius_m, std::uint32_t frame,
               Counters& counters) noexcept {
+    if (!point.steady) return;
     const int nearest = FindNearestEdge(all(), point, MergeRadius(point, merge_radius_m));
     if (nearest >= 0) {
       MergeIntoEdge(point, frame, edges_[nearest]);

@@ -43,10 +43,16 @@ class EdgeResiduals {
   [[nodiscard]] Residual At(int i, const PoseObjectFromCamera& T_oc, float scale_m,
                             bool reuse) noexcept {
     const ModelEdge*& known = known_[static_cast<std::size_t>(i)];
-    if (reuse && known == nullptr) return {};
-    const EdgePoint moved = T_oc * edges_[i];
-    if (!reuse) known = model_.FindNearest(moved, config_.match_radius_m + scale_m);
-    return known == nullptr ? Residual{} : EdgeResidualOf(moved, *known, radius_m_);
+    Residual residual;
+    if (!reuse || known != nullptr) {
+      const EdgePoint moved = T_oc * edges_[i];
+      if (!reuse) known = model_.FindNearest(moved, config_.match_radius_m + scale_m);
+      if (known != nullptr) residual = EdgeResidualOf(moved, *known, radius_m_);
+    }
+    // The outline of something round is nothing that the model lacks.
+    const bool unmatched = residual.status == ResidualStatus::kUnmatched;
+    if (unmatched && !edges_[i].steady) residual.status = ResidualStatus::kUnexpected;
+    return residual;
   }
 
  private:
@@ -55,7 +61,7 @@ class EdgeResiduals {
   const RegistrationConfig& config_;
   float radius_m_;
   /// What an edge was matched with; written by the first search.
-  std::array<const ModelEdge*, static_cast<std::size_t>(Limits::kMaxEdgePoints)> known_;
+  std::array<const ModelEdge*, static_cast<std::size_t>(Limits::kMaxEdgePoints)> known_{};
 };
 
 }  // namespace disflow

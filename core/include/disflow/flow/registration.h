@@ -68,19 +68,20 @@ class Registration {
     return sum / static_cast<float>(wanted);
   }
 
-  /// Share of the observed occluding edges that lie on edges of the model, 0..1. Tells apart poses
-  /// between which the surface could slide.
+  /// Share of the observed occluding edges that lie on edges of the model, 0..1, of those that
+  /// should. Tells apart poses between which the surface could slide.
   [[nodiscard]] float EdgeScore(const Model& model_edges, const RegistrationConfig& config,
                                 const PoseObjectFromCamera& T_oc) const noexcept {
-    if (edges_->empty()) return 0.0F;
     EdgeResiduals<Limits> edges(model_edges, *edges_, config);
     float sum = 0.0F;
+    int expected = 0;
     for (int i = 0; i < edges.size(); ++i) {
       const Residual edge = edges.At(i, T_oc, 0.0F, false);
+      if (edge.status != ResidualStatus::kUnexpected) ++expected;
       if (edge.status != ResidualStatus::kMatched) continue;
       sum += GemanMcClure(edge.distance_m, 2.0F * std::sqrt(edge.variance_m2));
     }
-    return sum / static_cast<float>(edges_->size());
+    return expected == 0 ? 0.0F : sum / static_cast<float>(expected);
   }
 
   /// Minimises E = sum d(T_oc x^c)^2 (section V-C) by closed-form steps from T_start.
@@ -169,7 +170,8 @@ class Registration {
     result.generation = surface.mean_generation();
     result.rms_m = surface.rms_m();
     result.edge_inliers = edge.inliers;
-    result.edge_trust = EdgeTrust(config.edge_agreement, edges.size(), edge.inliers);
+    result.edge_trust =
+        EdgeTrust(config.edge_agreement, edges.size() - edge.unexpected, edge.inliers);
     return equations;
   }
 

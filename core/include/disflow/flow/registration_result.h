@@ -40,7 +40,7 @@ struct RegistrationResult {
 /// How far the edges of a frame are believed, 0..1: edges that were seen for the first time agree
 /// with wrong ones here and there, and can shift a face that nothing else holds.
 /// @param expected_share RegistrationConfig::edge_agreement.
-/// @param agreeing How many of `edges` agreed with the model's.
+/// @param agreeing How many of the `edges` that should agree with the model's do.
 [[nodiscard]] float EdgeTrust(float expected_share, int edges, int agreeing) noexcept;
 
 /// T <- exp(xi) T of section V-D, with the rotation about a centre instead of the origin: better

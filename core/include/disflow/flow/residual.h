@@ -25,6 +25,7 @@ namespace disflow {
 enum class ResidualStatus : std::uint8_t {
   kMatched,
   kUnmatched,       ///< Nothing of the model is near, or what is near tells no direction.
+  kUnexpected,      ///< The same, of what need not be in the model.
   kNormalMismatch,  ///< Surface is near, but none whose normal agrees.
   kTruncated,       ///< Farther off than RegistrationConfig::truncation_m.
 };
@@ -57,6 +58,7 @@ struct ResidualWeighting {
 struct ResidualSums {
   int inliers = 0;  ///< Residuals that the robust kernel hardly weakens.
   int unmatched = 0;
+  int unexpected = 0;
   int normal_mismatch = 0;
   int truncated = 0;
   /// With the robust kernel's weights alone.
