@@ -4,26 +4,10 @@
 #include <algorithm>
 #include <cstring>
 
+#include "disflow/hal/mavlink/known_messages.h"
 #include "disflow/saturating.h"
 
 namespace disflow::hal::mavlink {
-namespace {
-
-/// What has to be known of a message before its checksum can be verified.
-struct MessageFacts {
-  std::uint32_t id;
-  std::uint8_t crc_extra;
-};
-
-template <class... Messages>
-constexpr std::array<MessageFacts, sizeof...(Messages)> FactsOf(MessageList<Messages...>) noexcept {
-  return {{{Messages::kId, CrcExtra<Messages>()}...}};
-}
-
-constexpr auto kKnownMessages = FactsOf(KnownMessages{});
-
-}  // namespace
-
 std::size_t FrameDecoder::Feed(std::span<const std::byte> bytes) noexcept {
   if (begin_ > 0) {
     std::copy(buffer_.begin() + static_cast<std::ptrdiff_t>(begin_),
@@ -37,7 +21,7 @@ std::size_t FrameDecoder::Feed(std::span<const std::byte> bytes) noexcept {
   return taken;
 }
 
-bool FrameDecoder::Next(FrameView& frame) noexcept {
+bool FrameDecoder::Next(FrameView& frame, SigningSession* session) noexcept {
   while (begin_ < end_) {
     std::size_t frame_size = 0;
     switch (Examine(frame_size)) {
@@ -47,6 +31,7 @@ bool FrameDecoder::Next(FrameView& frame) noexcept {
         SkipToMagic();
         break;
       case Verdict::kFrame:
+        if (session != nullptr && !IsAuthentic(*session, frame_size)) break;
         AddSaturating(counters_.frames);
         frame.header = {.sequence = At(4), .system_id = At(5), .component_id = At(6)};
         frame.message_id = MessageId();
@@ -56,6 +41,35 @@ bool FrameDecoder::Next(FrameView& frame) noexcept {
         return true;
     }
   }
+  return false;
+}
+
+/// @return false if the frame was refused; it is counted and passed over then.
+bool FrameDecoder::IsAuthentic(SigningSession& session, std::size_t frame_size) noexcept {
+  switch (session.Check(std::span<const std::byte>(buffer_).subspan(begin_, frame_size))) {
+    case SignatureVerdict::kAccepted:
+      return true;
+    case SignatureVerdict::kWrong:
+      AddSaturating(counters_.wrong_signature);
+      // The checksum says nothing of the signature's bytes: they may be the frame that follows one
+      // that was cut off.
+      SkipToMagic();
+      return false;
+    case SignatureVerdict::kUnsigned:
+      AddSaturating(counters_.without_signature);
+      break;
+    case SignatureVerdict::kReplayed:
+      AddSaturating(counters_.replayed);
+      break;
+    case SignatureVerdict::kOutdated:
+      AddSaturating(counters_.outdated);
+      break;
+    case SignatureVerdict::kNoRoom:
+      AddSaturating(counters_.streams_refused);
+      break;
+  }
+  AddSaturating(counters_.skipped_bytes, static_cast<std::uint32_t>(frame_size));
+  begin_ += frame_size;
   return false;
 }
 
@@ -77,11 +91,8 @@ FrameDecoder::Verdict FrameDecoder::Examine(std::size_t& frame_size) noexcept {
     AddSaturating(counters_.unsupported_flags);
     return Verdict::kGarbage;
   }
-  const std::uint32_t id = MessageId();
-  const auto* const known =
-      std::find_if(kKnownMessages.begin(), kKnownMessages.end(),
-                   [id](const MessageFacts& message) { return message.id == id; });
-  if (known == kKnownMessages.end()) {
+  const Expected<std::uint8_t> crc_extra = CrcExtraOf(MessageId());
+  if (!crc_extra.ok()) {
     // Its checksum cannot be verified, so its length cannot be trusted to skip over it.
     AddSaturating(counters_.unknown_id);
     return Verdict::kGarbage;
@@ -92,7 +103,7 @@ FrameDecoder::Verdict FrameDecoder::Examine(std::size_t& frame_size) noexcept {
 
   Crc crc;
   crc.Add(std::span<const std::byte>(buffer_).subspan(begin_ + 1, payload_end - 1));
-  crc.Add(known->crc_extra);
+  crc.Add(crc_extra.value);
   const auto received = std::span<const std::byte>(buffer_).subspan(begin_ + payload_end);
   if (crc.value() == LoadLittleEndian<std::uint16_t>(received)) return Verdict::kFrame;
   AddSaturating(counters_.bad_checksum);

@@ -86,6 +86,16 @@ struct OwnedFrame {
   return bytes;
 }
 
+/// Gives the checksum back its truth after a frame was changed by hand.
+inline void FixChecksum(Bytes& frame, std::uint8_t crc_extra) {
+  const std::size_t end = kHeaderSize + std::to_integer<std::size_t>(frame[1]);
+  Crc crc;
+  crc.Add(std::span<const std::byte>(frame).subspan(1, end - 1));
+  crc.Add(crc_extra);
+  frame[end] = static_cast<std::byte>(crc.value() & 0xFF);
+  frame[end + 1] = static_cast<std::byte>(crc.value() >> 8);
+}
+
 inline void Append(Bytes& bytes, const Bytes& more) {
   bytes.insert(bytes.end(), more.begin(), more.end());
 }

@@ -40,7 +40,7 @@ struct FrameHeader {
 struct FrameView {
   FrameHeader header;
   std::uint32_t message_id = 0;
-  bool is_signed = false;              ///< A signature followed; it was skipped, not verified.
+  bool is_signed = false;  ///< A signature followed; verified if the decoder had a session.
   std::span<const std::byte> payload;  ///< Without its trailing zeros.
 };
 

@@ -7,16 +7,24 @@
 #include <span>
 
 #include "disflow/hal/mavlink/frame.h"
+#include "disflow/hal/mavlink/signing_session.h"
 
 namespace disflow::hal::mavlink {
 
 /// What the decoder has come across; saturating.
 struct DecoderCounters {
-  std::uint32_t frames = 0;             ///< Complete, with a correct checksum.
+  std::uint32_t frames = 0;             ///< Complete, with a correct checksum, not refused below.
   std::uint32_t bad_checksum = 0;       ///< Known message, wrong checksum.
   std::uint32_t unknown_id = 0;         ///< Headers of messages that DisFlow does not know.
   std::uint32_t unsupported_flags = 0;  ///< Headers with incompatibility flags other than "signed".
   std::uint32_t skipped_bytes = 0;      ///< Bytes that belong to no accepted frame.
+
+  // Refused by the signing session, see SignatureVerdict.
+  std::uint32_t without_signature = 0;
+  std::uint32_t wrong_signature = 0;
+  std::uint32_t replayed = 0;
+  std::uint32_t outdated = 0;
+  std::uint32_t streams_refused = 0;
 };
 
 /// Finds the MAVLink 2 frames of known messages in a stream of bytes that may start anywhere and
@@ -39,8 +47,10 @@ class FrameDecoder {
 
   /// @param frame The next whole frame; its payload stays valid until the next call of Feed() or
   /// Next().
+  /// @param session If given, frames that it does not accept are counted and left out. Without,
+  /// signatures are passed over and unsigned frames are as good as signed ones.
   /// @return false if more bytes are needed (`frame` is unchanged then).
-  [[nodiscard]] bool Next(FrameView& frame) noexcept;
+  [[nodiscard]] bool Next(FrameView& frame, SigningSession* session = nullptr) noexcept;
 
   [[nodiscard]] const DecoderCounters& counters() const noexcept { return counters_; }
 
@@ -48,6 +58,7 @@ class FrameDecoder {
   enum class Verdict : std::uint8_t { kIncomplete, kGarbage, kFrame };
 
   [[nodiscard]] Verdict Examine(std::size_t& frame_size) noexcept;
+  [[nodiscard]] bool IsAuthentic(SigningSession& session, std::size_t frame_size) noexcept;
   void SkipToMagic() noexcept;
   [[nodiscard]] std::uint8_t At(std::size_t offset) const noexcept {
     return std::to_integer<std::uint8_t>(buffer_[begin_ + offset]);
