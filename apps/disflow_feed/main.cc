@@ -132,6 +132,12 @@ int Run(const Arguments& arguments) {
   posix::Link link;
   const Fault fault = link.Configure(arguments.link);
   if (!fault.ok()) return Fail(fault, kWrongUsage);
+  if (!link.key_file().empty()) {
+    return Fail(hal::MakeFault(Status::kUnsupported,
+                               "link '%s': disflow_firmware does not sign; leave out key=FILE",
+                               arguments.link.c_str()),
+                kWrongUsage);
+  }
   return Feed(arguments, *link.get());
 }
 

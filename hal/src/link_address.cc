@@ -62,10 +62,29 @@ void SplitQuery(std::string_view text, std::string_view& rest, std::string_view&
   query = mark == std::string_view::npos ? std::string_view{} : After(text, mark + 1);
 }
 
-/// Both kinds know exactly one option, `name`=number.
-[[nodiscard]] bool ParseOption(std::string_view query, std::string_view name, std::uint32_t max,
+/// `name`=number; zero: not given yet.
+[[nodiscard]] bool ParseOption(std::string_view option, std::string_view name, std::uint32_t max,
                                std::uint32_t& value) noexcept {
-  return query.starts_with(name) && ParseNumber(After(query, name.size()), max, value);
+  return option.starts_with(name) && value == 0 &&
+         ParseNumber(After(option, name.size()), max, value);
+}
+
+/// Options parted by '&': a number by the name that this kind of link has for it, and key=FILE.
+/// @return false for anything else, and for one that is given twice.
+[[nodiscard]] bool ParseOptions(std::string_view query, std::string_view name, std::uint32_t max,
+                                std::uint32_t& value, LinkAddress& address) noexcept {
+  constexpr std::string_view kKey = "key=";
+  while (!query.empty()) {
+    const std::size_t end = query.find('&');
+    const std::string_view option = Before(query, end);
+    const bool is_key = option.starts_with(kKey) && address.key_file[0] == '\0' &&
+                        CopyText(After(option, kKey.size()), address.key_file);
+    if (!is_key && !ParseOption(option, name, max, value)) return false;
+    if (end == std::string_view::npos) return true;
+    query = After(query, end + 1);
+    if (query.empty()) return false;
+  }
+  return true;
 }
 
 [[nodiscard]] Fault ParseUdp(std::string_view uri, std::string_view text,
@@ -92,8 +111,8 @@ void SplitQuery(std::string_view text, std::string_view& rest, std::string_view&
   }
   address.port = static_cast<std::uint16_t>(port);
   std::uint32_t bind_port = 0;
-  if (!query.empty() && !ParseOption(query, "bind=", kMaxPort, bind_port)) {
-    return BadUri(uri, "the only option is ?bind=PORT, a number from 1 to 65535");
+  if (!ParseOptions(query, "bind=", kMaxPort, bind_port, address)) {
+    return BadUri(uri, "options are ?bind=PORT, a number from 1 to 65535, and &key=FILE");
   }
   address.bind_port = static_cast<std::uint16_t>(bind_port);
   return {};
@@ -107,9 +126,11 @@ void SplitQuery(std::string_view text, std::string_view& rest, std::string_view&
   if (!device.starts_with('/') || !CopyText(device, address.device)) {
     return BadUri(uri, "the device must be an absolute path; write serial:///dev/ttyUSB0");
   }
-  if (!query.empty() && !ParseOption(query, "baud=", kMaxBaud, address.baud)) {
-    return BadUri(uri, "the only option is ?baud=RATE, a number from 1 to 4000000");
+  std::uint32_t baud = 0;
+  if (!ParseOptions(query, "baud=", kMaxBaud, baud, address)) {
+    return BadUri(uri, "options are ?baud=RATE, a number from 1 to 4000000, and &key=FILE");
   }
+  if (baud != 0) address.baud = baud;
   return {};
 }
 

@@ -15,6 +15,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (fault.ok() == is_named) std::abort();
   if (std::memchr(address.host, 0, sizeof(address.host)) == nullptr) std::abort();
   if (std::memchr(address.device, 0, sizeof(address.device)) == nullptr) std::abort();
+  if (std::memchr(address.key_file, 0, sizeof(address.key_file)) == nullptr) std::abort();
   if (fault.ok() && address.kind == LinkAddress::Kind::kUdp && address.port == 0) std::abort();
   return 0;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "links/telemetry_output.h"
 
+#include "disflow/saturating.h"
 #include "program/exit_status.h"
 
 namespace disflow::apps {
@@ -28,11 +29,29 @@ std::string LeftOut(std::uint64_t bytes) {
   return bytes == 0 ? "" : ", " + std::to_string(bytes) + " received bytes left out as too many";
 }
 
+std::string NotSigned(std::uint32_t messages) {
+  return messages == 0 ? "" : ", " + std::to_string(messages) + " not signed and not sent";
+}
+
+/// What was not authentic, each kind if there was any.
+std::string Refused(const hal::mavlink::DecoderCounters& counters) {
+  std::string text;
+  const auto add = [&text](std::uint32_t count, const char* what) {
+    if (count != 0) text += ", " + std::to_string(count) + " received " + what;
+  };
+  add(counters.without_signature, "unsigned");
+  add(counters.wrong_signature, "with a wrong signature");
+  add(counters.replayed, "replayed");
+  add(counters.outdated, "more than a minute old");
+  add(counters.streams_refused, "of too many senders");
+  return text;
+}
+
 }  // namespace
 
 TelemetryOutput::TelemetryOutput(const Options& options, hal::CameraPoseHistory* camera_poses,
                                  Console& console)
-    : console_(console) {
+    : console_(console), sessions_(hal::mavlink::TelemetryOptions{}.system_id, console) {
   for (const ObjectOptions& object : options.objects) {
     components_.push_back(
         {.id = static_cast<std::uint8_t>(hal::mavlink::kFirstComponentId + object.index),
@@ -44,6 +63,8 @@ TelemetryOutput::TelemetryOutput(const Options& options, hal::CameraPoseHistory*
       line.camera_pose.emplace(PoseSource(options.camera_pose), *camera_poses);
     }
     Require(line.link.Configure(uri), kWrongUsage);
+    line.number = static_cast<std::uint8_t>(lines_.size() - 1);
+    if (!line.link.key_file().empty()) line.session = &sessions_.Open(line.link.key_file());
   }
   for (Line& line : lines_) Require(line.link.get()->Open());
 }
@@ -55,6 +76,7 @@ TelemetryOutput::~TelemetryOutput() {
 void TelemetryOutput::Send(std::span<const FrameResult> results, std::int64_t age_ns,
                            std::int64_t now_ns) noexcept {
   if (lines_.empty()) return;
+  sessions_.Advance();
   Reopen(now_ns);
   for (std::size_t i = 0; i < components_.size(); ++i)
     components_[i].state = results[i].estimate.state;
@@ -74,15 +96,35 @@ void TelemetryOutput::Send(std::span<const FrameResult> results, std::int64_t ag
 }
 
 void TelemetryOutput::Receive(std::int64_t capture_now_ns) noexcept {
+  sessions_.Advance();
   for (Line& line : lines_) {
     if (!line.lost) ReceiveOn(line, capture_now_ns);
   }
 }
 
 void TelemetryOutput::ReceiveOn(Line& line, std::int64_t capture_now_ns) noexcept {
-  const std::span<const std::byte> bytes = line.reader.Read(*line.link.get());
-  line.queries.Receive(bytes);
-  if (line.camera_pose) line.camera_pose->Receive(bytes, capture_now_ns);
+  std::span<const std::byte> bytes = line.reader.Read(*line.link.get());
+  hal::mavlink::FrameView frame;
+  while (!bytes.empty()) {
+    bytes = bytes.subspan(line.decoder.Feed(bytes));
+    while (line.decoder.Next(frame, line.session)) {
+      line.queries.Take(frame);
+      if (line.camera_pose) line.camera_pose->Take(frame, capture_now_ns);
+    }
+  }
+  SayRefusals(line);
+}
+
+void TelemetryOutput::SayRefusals(Line& line) noexcept {
+  // Not while nothing changes: this runs once per frame.
+  if (!line.signature_refusal_said) {
+    const std::string refused = Refused(line.decoder.counters());
+    line.signature_refusal_said = !refused.empty();
+    if (!refused.empty()) {
+      console_.Say(std::string(line.link.get()->name()) + ": messages are left out" + refused +
+                   "; do both ends sign with the same key, and are their clocks right?");
+    }
+  }
   if (!line.camera_pose || line.camera_pose->refused_frame() == 0 || line.frame_refusal_said)
     return;
   line.frame_refusal_said = true;
@@ -112,6 +154,7 @@ void TelemetryOutput::Answer(const TrackedObjects& objects,
 
 void TelemetryOutput::KeepAlive(std::int64_t now_ns) noexcept {
   if (lines_.empty()) return;
+  sessions_.Advance();
   Reopen(now_ns);
   if (!heartbeat_sent_ || now_ns - heartbeat_ns_ >= kSecond_ns) SendHeartbeats(now_ns);
 }
@@ -132,6 +175,12 @@ void TelemetryOutput::Broadcast(Expected<std::size_t> size) noexcept {
 
 void TelemetryOutput::SendOn(Line& line, std::span<const std::byte> message) noexcept {
   if (line.lost) return;
+  if (line.session != nullptr) {
+    const auto size = line.session->Sign(message, line.number, signed_);
+    // Only if a peer has used up all times that there are; unsigned it must not go out.
+    if (!size.ok()) return AddSaturating(line.not_signed);
+    message = std::span(signed_).first(size.value);
+  }
   const Fault fault = line.link.get()->Send(message);
   // A full buffer is counted by the link itself and is no reason to open it anew.
   if (fault.ok() || fault.status == Status::kWouldBlock) return;
@@ -162,6 +211,7 @@ std::vector<std::string> TelemetryOutput::Summary() {
                       " messages sent, " + std::to_string(counters.dropped_messages) +
                       " dropped, " + std::to_string(counters.refused_messages) + " refused, " +
                       std::to_string(counters.reconnects) + " reconnects" +
+                      NotSigned(line.not_signed) + Refused(line.decoder.counters()) +
                       LeftOut(line.reader.dropped_bytes()) + (line.lost ? ", lost" : ""));
   }
   return summary;

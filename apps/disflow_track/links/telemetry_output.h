@@ -11,9 +11,11 @@
 
 #include "disflow/hal/mavlink/camera_pose_input.h"
 #include "disflow/hal/mavlink/distance_query_input.h"
+#include "disflow/hal/mavlink/frame_decoder.h"
 #include "disflow/hal/mavlink/telemetry.h"
 #include "disflow/posix/link.h"
 #include "links/link_reader.h"
+#include "links/signing_sessions.h"
 #include "objects/tracked_object.h"
 #include "program/console.h"
 #include "program/frame_result.h"
@@ -27,8 +29,8 @@ namespace disflow::apps {
 class TelemetryOutput {
  public:
   /// Opens the links.
-  /// @throws Failure kWrongUsage for an address that cannot be parsed, kOutputFailed for a link
-  /// that cannot be opened.
+  /// @throws Failure kWrongUsage for an address that cannot be parsed or a key that cannot be used,
+  /// kOutputFailed for a link that cannot be opened.
   /// @param camera_poses Where the carrier's ODOMETRY goes; null if nothing is received.
   TelemetryOutput(const Options& options, hal::CameraPoseHistory* camera_poses, Console& console);
   TelemetryOutput(const TelemetryOutput&) = delete;
@@ -60,6 +62,11 @@ class TelemetryOutput {
     LinkReader reader;
     bool lost = false;
     std::int64_t retry_ns = 0;
+    hal::mavlink::FrameDecoder decoder;
+    hal::mavlink::SigningSession* session = nullptr;  ///< Null: nothing is signed or verified.
+    std::uint8_t number = 0;                          ///< The link's, for signatures.
+    std::uint32_t not_signed = 0;                     ///< Messages that could not be signed.
+    bool signature_refusal_said = false;
     std::optional<hal::mavlink::CameraPoseInput> camera_pose;
     bool frame_refusal_said = false;
     hal::mavlink::DistanceQueryInput queries;
@@ -75,13 +82,18 @@ class TelemetryOutput {
   void SendHeartbeats(std::int64_t now_ns) noexcept;
   void Broadcast(Expected<std::size_t> size) noexcept;
   void ReceiveOn(Line& line, std::int64_t capture_now_ns) noexcept;
+  /// What a person should know of refused messages, once.
+  void SayRefusals(Line& line) noexcept;
+  /// Signs the message if the link has a key.
   void SendOn(Line& line, std::span<const std::byte> message) noexcept;
   void Reopen(std::int64_t now_ns) noexcept;
 
   Console& console_;
+  SigningSessions sessions_;
   std::deque<Line> lines_;
   std::vector<Component> components_;
   std::array<std::byte, hal::mavlink::kMaxFrameSize> buffer_{};
+  std::array<std::byte, hal::mavlink::kMaxFrameSize> signed_{};
   bool heartbeat_sent_ = false;
   std::int64_t heartbeat_ns_ = 0;   ///< On the clock.
   StampNs heartbeat_stamp_ns_ = 0;  ///< In the stream.

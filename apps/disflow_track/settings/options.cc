@@ -26,8 +26,9 @@ constexpr const char* kDescription =
 constexpr const char* kLinksAndStatus =
     "\n"
     "Links, each carries MAVLink 2 (docs/wire-format.md):\n"
-    "  udp://HOST:PORT[?bind=PORT]\n"
-    "  serial:///dev/NAME[?baud=RATE]\n"
+    "  udp://HOST:PORT[?bind=PORT][&key=FILE]\n"
+    "  serial:///dev/NAME[?baud=RATE][&key=FILE]\n"
+    "    key: sign what is sent and take only what is signed, with the key in that file\n"
     "or ROS 2 (docs/ros2.md):\n"
     "  dds:domain=N[&name=NODE][&interface=NAME][&peer=HOST,…][&camera=FRAME][&world=FRAME]\n"
     "      [&mask=TOPIC][&ros=humble|iron]\n"

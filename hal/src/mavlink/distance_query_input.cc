@@ -9,13 +9,15 @@ void DistanceQueryInput::Receive(std::span<const std::byte> bytes) noexcept {
   FrameView frame;
   while (!bytes.empty()) {
     bytes = bytes.subspan(decoder_.Feed(bytes));
-    while (decoder_.Next(frame)) {
-      DisflowQuery query;
-      if (DecodePayload(frame, query) != Status::kOk || query.target_system != system_id_) continue;
-      const bool has_sense = query.count > 0 && query.count <= DisflowQuery::kPoints;
-      if (!has_sense || !waiting_.push_back(query)) AddSaturating(refused_);
-    }
+    while (decoder_.Next(frame)) Take(frame);
   }
+}
+
+void DistanceQueryInput::Take(const FrameView& frame) noexcept {
+  DisflowQuery query;
+  if (DecodePayload(frame, query) != Status::kOk || query.target_system != system_id_) return;
+  const bool has_sense = query.count > 0 && query.count <= DisflowQuery::kPoints;
+  if (!has_sense || !waiting_.push_back(query)) AddSaturating(refused_);
 }
 
 }  // namespace disflow::hal::mavlink

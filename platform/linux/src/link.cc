@@ -7,6 +7,7 @@ hal::Fault Link::Configure(std::string_view uri) {
   hal::LinkAddress address;
   const hal::Fault fault = hal::ParseLinkAddress(uri, address);
   if (!fault.ok()) return fault;
+  key_file_ = address.key_file;
   switch (address.kind) {
     case hal::LinkAddress::Kind::kUdp:
       link_.emplace<UdpLink>(address);

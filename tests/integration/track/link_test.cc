@@ -42,9 +42,9 @@ class Receiver {
 
   [[nodiscard]] std::string port() const { return std::to_string(port_); }
 
-  /// Calls use(frame) for every MAVLink frame that has arrived.
+  /// Calls use(frame) for every MAVLink frame that has arrived and that the session accepts.
   template <class Use>
-  void Drain(Use&& use) {
+  void Drain(Use&& use, mavlink::SigningSession* session = nullptr) {
     std::array<std::byte, 2048> buffer;
     for (;;) {
       socklen_t sender_size = sizeof(sender_);
@@ -55,7 +55,7 @@ class Receiver {
       mavlink::FrameView frame;
       while (!bytes.empty()) {
         bytes = bytes.subspan(decoder_.Feed(bytes));
-        while (decoder_.Next(frame)) use(frame);
+        while (decoder_.Next(frame, session)) use(frame);
       }
     }
   }
@@ -208,6 +208,43 @@ TEST_F(LinkTest, SerialDeviceVanishesWhileSending_TrackingGoesOnAndItIsSaidOnce)
   EXPECT_NE(said, std::string::npos) << outcome.err;
   EXPECT_EQ(outcome.err.find("tracking goes on", said + 1), std::string::npos) << outcome.err;
   EXPECT_EQ(apps::LoadEstimates(Path("run.csv"), kFrames).rows.size(), std::size_t{kFrames});
+}
+
+TEST_F(LinkTest, SignedLink_SendsSignedMessagesOnlyAndNeverShowsItsKey) {
+  const std::string hex(64, 'a');
+  WriteFile(Path("link.key"), hex);
+  std::filesystem::permissions(Path("link.key"), std::filesystem::perms{0600});
+  Receiver receiver;
+  const Arguments arguments{"--sensor", "sim:bottle?frames=5", "--link",
+                            "udp://127.0.0.1:" + receiver.port() + "?key=" + Path("link.key")};
+  const Outcome outcome = RunTrack(arguments, scratch());
+  ASSERT_EQ(outcome.exit_status, 0) << outcome.err;
+  int frames = 0;
+  mavlink::SigningKey key;
+  key.fill(std::byte{0xaa});
+  mavlink::SigningSession session(key, 0);
+  receiver.Drain(
+      [&](const mavlink::FrameView& frame) {
+        ++frames;
+        EXPECT_TRUE(frame.is_signed);
+      },
+      &session);
+  EXPECT_GE(frames, 10);
+  EXPECT_EQ(receiver.counters().wrong_signature, 0U);
+  EXPECT_EQ(receiver.counters().without_signature, 0U);
+  for (const std::string& text : {outcome.out, outcome.err})
+    EXPECT_EQ(text.find("aaaaaaaa"), std::string::npos) << text;
+}
+
+TEST_F(LinkTest, KeyThatOthersMayRead_IsSaidBeforeTheRun) {
+  WriteFile(Path("link.key"), std::string(64, 'a'));
+  std::filesystem::permissions(Path("link.key"), std::filesystem::perms{0644});
+  const Outcome outcome = RunTrack(
+      {"--sensor", "sim:bottle?frames=5", "--link", "udp://127.0.0.1:9?key=" + Path("link.key")},
+      scratch());
+  EXPECT_EQ(outcome.exit_status, 2) << outcome.err;
+  EXPECT_NE(outcome.err.find("chmod 600"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find(Path("link.key")), std::string::npos) << outcome.err;
 }
 
 TEST_F(LinkTest, PortInUse_IsSaidBeforeTheRun) {

@@ -44,9 +44,23 @@ TEST(LinkAddress, SerialWithoutBaud_TakesTheDefault) {
   EXPECT_EQ(Parsed("serial:///dev/ttyS0").baud, LinkAddress::kDefaultBaud);
 }
 
+TEST(LinkAddress, KeyFile_StandsAloneOrBesideTheOtherOption) {
+  EXPECT_STREQ(Parsed("udp://a:1").key_file, "");
+  EXPECT_STREQ(Parsed("udp://a:1?key=/etc/k").key_file, "/etc/k");
+  EXPECT_STREQ(Parsed("serial:///dev/a?key=k=2?").key_file, "k=2?");
+  for (const char* const uri : {"udp://a:1?bind=7&key=k", "udp://a:1?key=k&bind=7"}) {
+    EXPECT_STREQ(Parsed(uri).key_file, "k");
+    EXPECT_EQ(Parsed(uri).bind_port, 7);
+  }
+  EXPECT_EQ(Parsed("serial:///dev/a?key=k&baud=9600").baud, 9600U);
+  EXPECT_EQ(Parsed("serial:///dev/a?key=k").baud, LinkAddress::kDefaultBaud);
+}
+
 TEST(LinkAddress, LongestNames_Fit) {
   const std::string host(LinkAddress::kMaxHostLength, 'h');
   EXPECT_EQ(Parsed("udp://" + host + ":1").host, host);
+  const std::string key(LinkAddress::kMaxKeyFileLength, 'k');
+  EXPECT_EQ(Parsed("udp://a:1?key=" + key).key_file, key);
   const std::string device = std::string("/").append(LinkAddress::kMaxDeviceLength - 1, 'd');
   EXPECT_EQ(Parsed("serial://" + device).device, device);
 }
@@ -75,6 +89,14 @@ TEST(LinkAddress, BadOne_IsRefusedWithTheReasonAndChangesNothing) {
                              {"udp://a:1?bind=70000", "?bind=PORT"},
                              {"udp://a:1?baud=1", "?bind=PORT"},
                              {"udp://a:1?bind=1&bind=2", "?bind=PORT"},
+                             {"udp://a:1?key=", "&key=FILE"},
+                             {"udp://a:1?key=a&key=b", "&key=FILE"},
+                             {"udp://a:1?bind=1&", "&key=FILE"},
+                             {"udp://a:1?&key=a", "&key=FILE"},
+                             {"udp://a:1?key=" + std::string(256, 'k'), "&key=FILE"},
+                             {std::string("udp://a:1?key=a\0b", 17), "&key=FILE"},
+                             {"serial:///dev/a?key=a&key=b", "&key=FILE"},
+                             {"serial:///dev/a?baud=9600&baud=9600", "?baud=RATE"},
                              {"udp://" + std::string(254, 'h') + ":1", "too long"},
                              {std::string("udp://a\0b:1", 11), "host"},
                              {"serial://", "absolute path"},

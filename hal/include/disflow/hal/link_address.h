@@ -15,6 +15,7 @@ struct LinkAddress {
   static constexpr std::uint32_t kDefaultBaud = 921600;
   static constexpr std::size_t kMaxHostLength = 253;  ///< RFC 1035.
   static constexpr std::size_t kMaxDeviceLength = 127;
+  static constexpr std::size_t kMaxKeyFileLength = 255;
 
   Kind kind = Kind::kUdp;
   char host[kMaxHostLength + 1] = {};      ///< UDP: name, IPv4 or IPv6 address (no brackets).
@@ -22,10 +23,13 @@ struct LinkAddress {
   std::uint16_t bind_port = 0;             ///< UDP: own port, 0 = any.
   char device[kMaxDeviceLength + 1] = {};  ///< Serial: path, e.g. "/dev/ttyUSB0".
   std::uint32_t baud = kDefaultBaud;       ///< Serial: bits per second.
+  /// File with the key by which messages are signed; empty: they are not.
+  char key_file[kMaxKeyFileLength + 1] = {};
 };
 
-/// Reads `udp://HOST:PORT[?bind=PORT]` or `serial:///dev/NAME[?baud=RATE]`. IPv6 addresses are
-/// written in brackets: `udp://[::1]:14550`.
+/// Reads `udp://HOST:PORT[?bind=PORT]` or `serial:///dev/NAME[?baud=RATE]`, both also with
+/// `key=FILE`; options are parted by '&'. IPv6 addresses are written in brackets:
+/// `udp://[::1]:14550`.
 /// @param address Unchanged unless the result is ok.
 /// @return kInvalidUri with the part that is wrong and what it should look like.
 [[nodiscard]] Fault ParseLinkAddress(std::string_view uri, LinkAddress& address) noexcept;

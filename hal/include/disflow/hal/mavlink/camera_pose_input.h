@@ -28,7 +28,7 @@ struct CameraPoseInputCounters {
   std::uint32_t failed = 0;        ///< The sender reported that its estimate failed.
 };
 
-/// Reads the bytes of one link and puts the carrier's ODOMETRY into a history.
+/// Reads the bytes or the frames of one link and puts the carrier's ODOMETRY into a history.
 class CameraPoseInput {
  public:
   CameraPoseInput(const CameraPoseSource& source, CameraPoseHistory& history) noexcept
@@ -36,13 +36,14 @@ class CameraPoseInput {
 
   /// @param now_ns Now, on the clock of the depth images.
   void Receive(std::span<const std::byte> bytes, std::int64_t now_ns) noexcept;
+  /// For those who decode the bytes themselves.
+  void Take(const FrameView& frame, std::int64_t now_ns) noexcept;
 
   [[nodiscard]] const CameraPoseInputCounters& counters() const noexcept { return counters_; }
   /// frame_id of the last ODOMETRY that was refused for it; 0 = none was.
   [[nodiscard]] std::uint8_t refused_frame() const noexcept { return refused_frame_; }
 
  private:
-  void Take(const FrameView& frame, std::int64_t now_ns) noexcept;
   [[nodiscard]] Expected<StampNs> ToCaptureClock(std::uint64_t time_usec,
                                                  std::int64_t now_ns) noexcept;
 

@@ -15,8 +15,8 @@
 
 namespace disflow::hal::mavlink {
 
-/// Reads the bytes of one link and keeps the questions until they are answered. There is room for
-/// few: answering is bounded work between two frames.
+/// Reads the bytes or the frames of one link and keeps the questions until they are answered. There
+/// is room for few: answering is bounded work between two frames.
 class DistanceQueryInput {
  public:
   static constexpr int kMaxWaiting = 4;
@@ -26,6 +26,8 @@ class DistanceQueryInput {
       : system_id_(system_id) {}
 
   void Receive(std::span<const std::byte> bytes) noexcept;
+  /// For those who decode the bytes themselves.
+  void Take(const FrameView& frame) noexcept;
 
   /// Oldest first; `count` is from 1 to DisflowQuery::kPoints.
   [[nodiscard]] const FixedVector<DisflowQuery, kMaxWaiting>& waiting() const noexcept {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <variant>
 
@@ -24,9 +25,13 @@ class Link {
 
   /// @return The link, or null before Configure() succeeded.
   [[nodiscard]] hal::ByteLink* get() noexcept;
+  /// File with the key that messages are to be signed with, empty for none: who sends and decodes
+  /// the messages has to see to it.
+  [[nodiscard]] const std::string& key_file() const noexcept { return key_file_; }
 
  private:
   std::variant<std::monostate, UdpLink, SerialLink> link_;
+  std::string key_file_;
 };
 
 }  // namespace disflow::posix
