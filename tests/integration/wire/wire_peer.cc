@@ -6,6 +6,7 @@
 ///   wire_peer receive URI COUNT       prints "ready", then COUNT decoded messages as JSON lines
 ///   and
 ///                                     one line with the decoder's counters
+/// With key=FILE in the URI all that is sent is signed, and only what is signed counts.
 
 #include <charconv>
 #include <cstdio>
@@ -14,11 +15,14 @@
 #include <iostream>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "disflow/hal/mavlink/frame_decoder.h"
 #include "disflow/posix/link.h"
 #include "disflow/posix/monotonic_clock.h"
+#include "disflow/posix/signing_key_file.h"
+#include "disflow/posix/signing_time_file.h"
 
 namespace {
 
@@ -135,12 +139,20 @@ bool PrintIf(const FrameView& frame) {
   return true;
 }
 
-int Send(hal::ByteLink& link, const char* path) {
+constexpr std::uint8_t kLinkId = 3;
+
+int Send(hal::ByteLink& link, SigningSession* session, const char* path) {
   std::ifstream file(path);
   const json vectors = json::parse(file);
   std::array<std::byte, kMaxFrameSize> buffer{};
   for (const json& vector : vectors.at("messages")) {
-    const std::size_t size = Encode(vector, buffer);
+    std::size_t size = Encode(vector, buffer);
+    if (session != nullptr) {
+      const auto frame = buffer;
+      const auto signed_size = session->Sign(std::span(frame).first(size), kLinkId, buffer);
+      if (!signed_size.ok()) Fail(Describe(signed_size.status));
+      size = signed_size.value;
+    }
     const hal::Fault fault = link.Send(std::span(buffer).first(size));
     if (!fault.ok()) Fail(fault.message);
   }
@@ -150,7 +162,7 @@ int Send(hal::ByteLink& link, const char* path) {
   return 0;
 }
 
-int Receive(hal::ByteLink& link, std::uint32_t count) {
+int Receive(hal::ByteLink& link, SigningSession* session, std::uint32_t count) {
   posix::MonotonicClock clock;
   FrameDecoder decoder;
   FrameView frame;
@@ -166,7 +178,7 @@ int Receive(hal::ByteLink& link, std::uint32_t count) {
     auto bytes = std::span<const std::byte>(buffer).first(received.value);
     while (!bytes.empty()) {
       bytes = bytes.subspan(decoder.Feed(bytes));
-      while (decoder.Next(frame)) {
+      while (decoder.Next(frame, session)) {
         // Whichever it is; the decoder knows no other.
         (void)(PrintIf<Heartbeat>(frame) || PrintIf<Odometry>(frame) ||
                PrintIf<DisflowStatus>(frame) || PrintIf<DisflowReady>(frame) ||
@@ -178,7 +190,11 @@ int Receive(hal::ByteLink& link, std::uint32_t count) {
   const DecoderCounters& counters = decoder.counters();
   std::cout << json{{"frames", counters.frames},
                     {"bad_checksum", counters.bad_checksum},
-                    {"unknown_id", counters.unknown_id}}
+                    {"unknown_id", counters.unknown_id},
+                    {"without_signature", counters.without_signature},
+                    {"wrong_signature", counters.wrong_signature},
+                    {"replayed", counters.replayed},
+                    {"outdated", counters.outdated}}
             << std::endl;
   return counters.frames == count ? 0 : 1;
 }
@@ -191,6 +207,14 @@ int main(int argc, char** argv) {
   hal::Fault fault = link.Configure(argv[2]);
   if (fault.ok()) fault = link.get()->Open();
   if (!fault.ok()) Fail(fault.message);
-  if (std::string(argv[1]) == "send") return Send(*link.get(), argv[3]);
-  return Receive(*link.get(), static_cast<std::uint32_t>(std::atoi(argv[3])));
+  std::optional<SigningSession> session;
+  if (!link.key_file().empty()) {
+    SigningKey key{};
+    fault = posix::ReadSigningKey(link.key_file(), key);
+    if (!fault.ok()) Fail(fault.message);
+    session.emplace(key, posix::SigningTimeNow());
+  }
+  SigningSession* const signing = session ? &*session : nullptr;
+  if (std::string(argv[1]) == "send") return Send(*link.get(), signing, argv[3]);
+  return Receive(*link.get(), signing, static_cast<std::uint32_t>(std::atoi(argv[3])));
 }

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 'use strict';
-// usage: node wire_test.js udp|serial send|receive DISFLOW.xml WIRE_PEER...
-//   send     DisFlow sends, node-mavlink decodes; every field and every byte must agree
-//   receive  node-mavlink sends, with garbage, foreign and signed messages; DisFlow decodes
+// usage: node wire_test.js udp|serial send|receive|send-signed|receive-signed DISFLOW.xml WIRE_PEER...
+//   send            DisFlow sends, node-mavlink decodes; every field and every byte must agree
+//   receive         node-mavlink sends, with garbage, foreign and signed messages; DisFlow decodes
+//   send-signed     as send; every signature must be the one that node-mavlink makes
+//   receive-signed  node-mavlink sends signed messages and some that are not to be trusted
 const assert = require('assert');
 const {spawn} = require('child_process');
 const path = require('path');
@@ -11,6 +13,7 @@ const {Readable} = require('stream');
 const {common} = require('mavlink-mappings');
 const {createMavLinkStream, MavLinkPacketSignature, MavLinkProtocolV2} = require('node-mavlink');
 const lines = require('./line');
+const {checkSignatures, KeyFile, signedTraffic} = require('./signing');
 const {encode, loadDialect, toNative} = require('./mavlink');
 
 const vectorsPath = path.join(__dirname, 'vectors.json');
@@ -36,17 +39,18 @@ function startPeer(peer, args) {
   return {child, exited};
 }
 
-async function testSend(line, dialect, peer) {
+async function testSend(line, dialect, peer, key) {
   const input = new Readable({read() {}});
   const packets = [];
   const complete = new Promise((resolve) => {
-    createMavLinkStream(input, {magicNumbers: dialect.magicNumbers}).on('data', (packet) => {
+    const settings = {magicNumbers: dialect.magicNumbers, key: key && key.bytes};
+    createMavLinkStream(input, settings).on('data', (packet) => {
       packets.push(packet);
       if (packets.length === vectors.length) resolve();
     });
   });
   line.onBytes((bytes) => input.push(bytes));
-  const {child, exited} = startPeer(peer, ['send', line.uri, vectorsPath]);
+  const {child, exited} = startPeer(peer, ['send', key ? key.uri(line) : line.uri, vectorsPath]);
   await Promise.race([complete, exited]);
   child.stdin.end();
   assert.strictEqual(await exited, 0, 'wire_peer failed');
@@ -61,9 +65,11 @@ async function testSend(line, dialect, peer) {
     assert.strictEqual(packet.header.compid, vector.component_id);
     const message = packet.protocol.data(packet.payload, clazz);
     expectFields(vector, clazz.FIELDS, (field) => message[field.name]);
+    if (key) return;
     assert.strictEqual(packet.buffer.toString('hex'), encode(vector, dialect).toString('hex'),
                        `bytes of message ${i}, ${vector.message}`);
   });
+  if (key) checkSignatures(packets, vectors, dialect, key);
 }
 
 /** What node sends: every vector, then a signed one, with things in between that are none. */
@@ -83,26 +89,34 @@ function traffic(dialect) {
   return parts;
 }
 
-async function testReceive(line, dialect, peer) {
-  const expected = [...vectors.map((vector) => ({...vector, signed: false})),
-                    {...vectors[1], signed: true}];
-  const {child, exited} = startPeer(peer, ['receive', line.uri, String(expected.length)]);
+async function testReceive(line, dialect, peer, key) {
+  const expected = key ? vectors.map((vector) => ({...vector, signed: true}))
+                       : [...vectors.map((vector) => ({...vector, signed: false})),
+                          {...vectors[1], signed: true}];
+  const uri = key ? key.uri(line) : line.uri;
+  const parts = key ? signedTraffic(vectors, dialect, key) : traffic(dialect);
+  const {child, exited} = startPeer(peer, ['receive', uri, String(expected.length)]);
   const printed = [];
   for await (const text of readline.createInterface({input: child.stdout})) {
     printed.push(JSON.parse(text));
     if (printed.length > 1) continue;
-    for (const part of traffic(dialect)) await line.write(part);
+    for (const part of parts) await line.write(part);
   }
   assert.strictEqual(await exited, 0, 'wire_peer failed');
   assert.strictEqual(printed.shift(), 'ready');
   const counters = printed.pop();
-  assert.ok(counters.unknown_id >= 1, 'the foreign message must be counted');
-  assert.ok(counters.bad_checksum >= 1, 'the damaged message must be counted');
+  if (key) {
+    for (const what of ['without_signature', 'wrong_signature', 'replayed', 'outdated'])
+      assert.ok(counters[what] >= 1, `${what} must be counted: ${JSON.stringify(counters)}`);
+  } else {
+    assert.ok(counters.unknown_id >= 1, 'the foreign message must be counted');
+    assert.ok(counters.bad_checksum >= 1, 'the damaged message must be counted');
+  }
   assert.strictEqual(printed.length, expected.length, 'number of messages');
   expected.forEach((vector, i) => {
     const got = printed[i];
-    for (const key of ['message', 'sequence', 'system_id', 'component_id', 'signed']) {
-      assert.strictEqual(got[key], vector[key], `message ${i}: ${key}`);
+    for (const name of ['message', 'sequence', 'system_id', 'component_id', 'signed']) {
+      assert.strictEqual(got[name], vector[name], `message ${i}: ${name}`);
     }
     expectFields(vector, dialect.classes[vector.message].FIELDS,
                  (field) => toNative(got.fields[field.source], field.type));
@@ -113,14 +127,17 @@ async function main() {
   const [kind, direction, xmlPath, ...peer] = process.argv.slice(2);
   const dialect = await loadDialect(xmlPath);
   const line = await lines.open[kind]();
+  const [verb, how] = direction.split('-');
+  const key = how === 'signed' ? new KeyFile() : undefined;
   setTimeout(() => {
     console.error(`no end after ${kPatienceMs} ms`);
     process.exit(1);
   }, kPatienceMs).unref();
   try {
-    await (direction === 'send' ? testSend : testReceive)(line, dialect, peer);
+    await (verb === 'send' ? testSend : testReceive)(line, dialect, peer, key);
   } finally {
     line.close();
+    if (key) key.close();
   }
   console.log(`${kind} ${direction}: ${vectors.length} messages agree`);
 }
