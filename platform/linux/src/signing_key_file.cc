@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <optional>
 #include <span>
 
@@ -24,11 +23,6 @@ using hal::mavlink::SigningKey;
 /// 64 hex digits, a line's end, and one byte that tells that the file is longer.
 using KeyText = std::array<std::byte, 2 * std::tuple_size_v<SigningKey> + 2 + 1>;
 
-bool IsCredential(const std::string& path) {
-  const char* const folder = std::getenv("CREDENTIALS_DIRECTORY");
-  return folder != nullptr && *folder != '\0' && path.starts_with(std::string(folder) + "/");
-}
-
 Fault CheckAccess(int fd, const std::string& path) {
   struct stat info {};
   if (::fstat(fd, &info) != 0) {
@@ -38,8 +32,7 @@ Fault CheckAccess(int fd, const std::string& path) {
     return MakeFault(Status::kUnsupported, "%s: not an ordinary file; a signing key is needed",
                      path.c_str());
   }
-  const mode_t forbidden = IsCredential(path) ? mode_t{S_IRWXO} : mode_t{S_IRWXG | S_IRWXO};
-  if ((info.st_mode & forbidden) == 0) return {};
+  if ((info.st_mode & (S_IRWXG | S_IRWXO)) == 0) return {};
   return MakeFault(Status::kPermissionDenied,
                    "%s: others than its owner may read or change this key; chmod 600 it",
                    path.c_str());

@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -87,19 +88,6 @@ TEST_F(SigningFilesTest, KeyThatOthersMayAccess_IsRefusedWithTheRemedy) {
     Write(Hex(), mode);
     ExpectRefused(Status::kPermissionDenied, "chmod 600");
   }
-}
-
-TEST_F(SigningFilesTest, CredentialOfTheService_MayHaveGroupBitsOnly) {
-  ASSERT_EQ(::setenv("CREDENTIALS_DIRECTORY", folder_.c_str(), 1), 0);
-  Write(Hex(), 0440);
-  EXPECT_TRUE(Read().ok()) << Read().message;
-  key_ = {};
-  Write(Hex(), 0444);
-  ExpectRefused(Status::kPermissionDenied, "chmod 600");
-  ASSERT_EQ(::setenv("CREDENTIALS_DIRECTORY", "/nowhere", 1), 0);
-  Write(Hex(), 0440);
-  ExpectRefused(Status::kPermissionDenied, "chmod 600");
-  ASSERT_EQ(::unsetenv("CREDENTIALS_DIRECTORY"), 0);
 }
 
 TEST_F(SigningFilesTest, WhatIsNoKey_IsRefusedByName) {

@@ -9,8 +9,7 @@
 namespace disflow::posix {
 
 /// Reads a key: a file of exactly 32 bytes, or of 64 hex digits with or without a line's end. Only
-/// its owner may have access to it. In the folder that systemd hands over credentials in
-/// ($CREDENTIALS_DIRECTORY) group bits are allowed, since there they stand for the service's user.
+/// its owner may have access to it.
 /// @param key Unchanged unless the result is ok.
 /// @return kNotFound, kPermissionDenied, kUnsupported (no ordinary file), kCorrupt (no key in it)
 /// or kIoError, naming the file.
