@@ -25,7 +25,6 @@ using mavlink::testing::KeyNumber;
 using test::Eventually;
 using test::LoopbackPort;
 
-constexpr mavlink::FrameHeader kAsker{.sequence = 0, .system_id = 9, .component_id = 1};
 constexpr std::uint8_t kCarrier = 7;
 
 /// A program's links with a key, and an own link at the other end that has a session of its own.
@@ -127,6 +126,9 @@ TEST_F(SignedLinkTest, MessageOfOneLink_CannotBeReplayedOnAnotherOfTheSameKey) {
   const Bytes genuine = SignedPose(other_end_);
   EXPECT_EQ(Taken(genuine, 0), 1U);
   EXPECT_EQ(Taken(genuine, 1), 0U);
+  // The history would not have taken the same stamp twice either.
+  EXPECT_NE(telemetry_->Summary().back().find("1 received replayed"), std::string::npos)
+      << telemetry_->Summary().back();
 }
 
 TEST_F(SignedLinkTest, EchoOfWhatWasSent_IsLeftOut) {

@@ -86,6 +86,7 @@ TEST_F(SigningSessionTest, TimeThatStandsStillOrRunsBackwards_IsRefusedAsReplaye
   EXPECT_FALSE(Accepts(Signed(kNow + 9, heartbeat_)));
   EXPECT_EQ(counters().replayed, 2U);
   EXPECT_TRUE(Accepts(Signed(kNow + 11, heartbeat_)));
+  EXPECT_FALSE(Accepts(Signed(kNow + 11, heartbeat_))) << "the newest counts, not the first";
 }
 
 TEST_F(SigningSessionTest, SystemComponentAndLink_AreAStreamEach) {

@@ -84,7 +84,7 @@ TEST_F(SigningFilesTest, KeyOf64HexDigits_MayEndInALinesEnd) {
 }
 
 TEST_F(SigningFilesTest, KeyThatOthersMayAccess_IsRefusedWithTheRemedy) {
-  for (const mode_t mode : {0640, 0604, 0644, 0620, 0602, 0610, 0601}) {
+  for (const mode_t mode : {0640U, 0604U, 0644U, 0620U, 0602U, 0610U, 0601U}) {
     Write(Hex(), mode);
     ExpectRefused(Status::kPermissionDenied, "chmod 600");
   }
