@@ -97,6 +97,23 @@ test('the page shows a tracked object, and its plots move', async () => {
   assert.deepEqual(complaints, []);
 });
 
+test('the page carries the licences of all that it is made of', async () => {
+  track = await startTrack([kDemo]);
+  await open(track.url);
+  await page.click('footer a');
+  await page.waitForURL('**/licences.txt');
+  const text = await page.textContent('body');
+  const view = new URL('../../apps/view/', import.meta.url);
+  const { dependencies, devDependencies } = JSON.parse(await readFile(new URL('package.json', view), 'utf8'));
+  const served = Object.keys({ ...dependencies, ...devDependencies }).filter((name) => name !== 'esbuild');
+  assert.ok(served.length >= 2);
+  for (const name of served) {
+    const licence = await readFile(new URL(`node_modules/${name}/LICENSE`, view), 'utf8');
+    assert.ok(text.includes(licence.trim()), name);
+  }
+  assert.ok(text.includes('Redistribution and use in source and binary forms'), "the project's own");
+});
+
 test('the buttons pause, resume, reset, and save the mesh', async () => {
   track = await startTrack([kDemo]);
   await open(track.url);
