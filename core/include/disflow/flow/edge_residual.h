@@ -49,7 +49,6 @@ class EdgeResiduals {
       if (!reuse) known = model_.FindNearest(moved, config_.match_radius_m + scale_m);
       if (known != nullptr) residual = EdgeResidualOf(moved, *known, radius_m_);
     }
-    // The outline of something round is nothing that the model lacks.
     const bool unmatched = residual.status == ResidualStatus::kUnmatched;
     if (unmatched && !edges_[i].steady) residual.status = ResidualStatus::kUnexpected;
     return residual;
