@@ -7,7 +7,10 @@ if [ $# -ne 2 ]; then
   echo "usage: $0 BIN_DIR PORT" >&2
   exit 2
 fi
-url=http://127.0.0.1:$2/
+# In the environment: other users may read a command line.
+DISFLOW_VIEW_TOKEN=$(od -An -N16 -tx1 /dev/urandom | tr -d ' \n')
+export DISFLOW_VIEW_TOKEN
+url=http://127.0.0.1:$2/?token=$DISFLOW_VIEW_TOKEN
 echo "== open $url in a browser; Ctrl-C ends the demonstration"
 if command -v xdg-open >/dev/null && [ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ]; then
   (sleep 2 && xdg-open "$url" >/dev/null 2>&1) &

@@ -3,9 +3,9 @@
 import { spawn } from 'node:child_process';
 import { once } from 'node:events';
 
-/** @param port 0: any that is free. */
-export async function startTrack([sensor], { port = 0, more = [] } = {}) {
-  const options = ['--sensor', sensor, '--rate', 'realtime', '--headless', '--view', `127.0.0.1:${port}`, ...more];
+/** @param port 0: any that is free. @param query Behind the view's address. */
+export async function startTrack([sensor], { port = 0, query = '', more = [] } = {}) {
+  const options = ['--sensor', sensor, '--rate', 'realtime', '--headless', '--view', `127.0.0.1:${port}${query}`, ...more];
   const child = spawn(process.env.DISFLOW_TRACK, options, { stdio: ['ignore', 'ignore', 'pipe'] });
   const ended = once(child, 'exit');
   let said = '';
@@ -13,7 +13,7 @@ export async function startTrack([sensor], { port = 0, more = [] } = {}) {
   const url = await new Promise((resolve, reject) => {
     child.stderr.on('data', (text) => {
       said += text;
-      const found = said.match(/live view: (http:\/\/[\d.]+:(\d+)\/)/);
+      const found = said.match(/live view: (http:\/\/[\d.]+:(\d+)\/)(\S*)\n/);
       if (found) resolve(found);
     });
     child.on('exit', () => reject(new Error(`disflow_track ended: ${said}`)));
@@ -22,5 +22,6 @@ export async function startTrack([sensor], { port = 0, more = [] } = {}) {
     child.kill('SIGINT');
     await ended;
   };
-  return { url: url[1], port: Number(url[2]), stop };
+  // `url` is the page's, `address` what was printed.
+  return { url: url[1], address: url[1] + url[3], port: Number(url[2]), stop };
 }

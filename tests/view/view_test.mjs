@@ -9,6 +9,8 @@ import { chromium } from 'playwright-core';
 import { startTrack } from './track.mjs';
 
 const kPatience_ms = 90_000;
+const kToken = 'a-token-for-the-test';
+const kKnown = ['--view-token', kToken];
 const kDemo = 'sim:bottle?frames=20000&motion=fast&noise=white';
 const pictures = process.env.DISFLOW_PICTURES;
 
@@ -83,7 +85,7 @@ const plotPictures = () => page.$$eval('.plot canvas', (all) => all.map((canvas)
 
 test('the page shows a tracked object, and its plots move', async () => {
   track = await startTrack([kDemo]);
-  await open(track.url);
+  await open(track.address);
   await untilTracking();
   await until(() => document.getElementById('depth').width > 100);
   assert.ok((await coloursOf('#view')) > 30, 'the scene shows no surface');
@@ -116,7 +118,7 @@ test('the page carries the licences of all that it is made of', async () => {
 
 test('the buttons pause, resume, reset, and save the mesh', async () => {
   track = await startTrack([kDemo]);
-  await open(track.url);
+  await open(track.address);
   await untilTracking();
   await page.click('#pause');
   await untilBanner('Paused');
@@ -157,14 +159,14 @@ async function checkPly(bytes) {
 }
 
 test('a lost link is said, and comes back by itself after the program was started anew', async () => {
-  track = await startTrack([kDemo]);
-  await open(track.url);
+  track = await startTrack([kDemo], { more: kKnown });
+  await open(`${track.url}?token=${kToken}`);
   await untilTracking();
   await untilFrameAfter(100);
   await track.stop();
   await untilBanner('Link lost');
   assert.ok(await page.isDisabled('#reset'));
-  track = await startTrack([kDemo], { port: track.port });
+  track = await startTrack([kDemo], { port: track.port, more: kKnown });
   await untilBanner(null);
   await until(() => Number(document.querySelector('#values dd[data-name="Frame"]').textContent) < 100);
   await untilTracking();
@@ -176,7 +178,7 @@ test('on a telephone nothing is cut off, in light and in dark', async () => {
   track = await startTrack([kDemo]);
   const grounds = new Set();
   for (const colorScheme of ['light', 'dark']) {
-    await open(track.url, { viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true, colorScheme });
+    await open(track.address, { viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true, colorScheme });
     await untilTracking();
     assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), 'it has to be scrolled sideways');
     for (const id of ['pause', 'reset', 'save']) {
@@ -193,18 +195,33 @@ test('on a telephone nothing is cut off, in light and in dark', async () => {
 
 test('the end of the input is said, and the page stays', async () => {
   track = await startTrack(['sim:box?frames=60'], { more: ['--view-hold'] });
-  await open(track.url);
+  await open(track.address);
   await untilBanner('The input has ended');
   assert.equal(await frame(), 59);
   assert.deepEqual(complaints, []);
 });
 
+test('on this machine too only the printed address opens the page', async () => {
+  track = await startTrack([kDemo]);
+  assert.match(track.address, /\?token=[0-9a-f]{32}$/);
+  assert.equal((await fetch(track.url)).status, 401);
+  await open(track.address);
+  await untilTracking();
+  assert.equal(page.url(), track.url);
+  assert.deepEqual(complaints, []);
+});
+
+test('with ?token=none whoever uses this machine sees the page', async () => {
+  track = await startTrack([kDemo], { query: '?token=none' });
+  assert.equal(track.address, track.url);
+  assert.equal((await fetch(track.url)).status, 200);
+});
+
 test('with a token only who knows it sees the page', async () => {
-  const token = 'a-token-for-the-test';
-  track = await startTrack([kDemo], { more: ['--view-token', token] });
+  track = await startTrack([kDemo], { more: kKnown });
   const stranger = await fetch(track.url);
   assert.equal(stranger.status, 401);
-  await open(`${track.url}?token=${token}`);
+  await open(`${track.url}?token=${kToken}`);
   await untilTracking();
   assert.equal(page.url(), track.url);
   assert.deepEqual(complaints, []);

@@ -11,7 +11,7 @@ namespace disflow::apps {
 
 struct ViewOptions {
   std::string address;  ///< Empty: no view.
-  std::string token;    ///< Empty: none, or a new one where one is needed.
+  std::string token;    ///< Empty: a new one, unless the address says `token=none`.
   bool hold = false;    ///< The page stays after the input's end.
 };
 

@@ -52,7 +52,13 @@ posix::WebServerOptions ServerOptions(const ViewOptions& options) {
   if (!fault.ok()) throw Failure(kWrongUsage, std::string("--view ") + fault.message);
   if (!options.token.empty()) CheckToken(options.token);
   server.token = options.token;
-  if (server.token.empty() && !server.address.is_loopback) server.token = NewToken();
+  if (server.address.without_token && !server.token.empty()) {
+    throw Failure(kWrongUsage,
+                  "--view ...?token=none and a token (--view-token or DISFLOW_VIEW_TOKEN) "
+                  "contradict each other; leave one out");
+  }
+  // On loopback too: other users of the machine reach it.
+  if (server.token.empty() && !server.address.without_token) server.token = NewToken();
   return server;
 }
 

@@ -15,7 +15,8 @@ constexpr int kLargestPort = 65535;
 hal::Fault WrongAddress(std::string_view text) {
   return hal::MakeFault(Status::kInvalidUri,
                         "%.*s: is no address to listen on; write :PORT, ADDRESS:PORT or "
-                        "[IPV6-ADDRESS]:PORT, e.g. :8080 or 0.0.0.0:8080",
+                        "[IPV6-ADDRESS]:PORT, e.g. :8080 or 0.0.0.0:8080; ?token=none "
+                        "may follow an address of this machine only",
                         static_cast<int>(text.size()), text.data());
 }
 
@@ -53,11 +54,16 @@ std::string WebAddress::Url(int listened_port) const {
 
 hal::Fault ParseWebAddress(std::string_view text, WebAddress& address) {
   address = {};
-  const std::size_t colon = text.rfind(':');
+  constexpr std::string_view kWithoutToken = "?token=none";
+  address.without_token = text.ends_with(kWithoutToken);
+  const std::string_view where =
+      address.without_token ? text.substr(0, text.size() - kWithoutToken.size()) : text;
+  const std::size_t colon = where.rfind(':');
   const bool has_host = colon != std::string_view::npos;
-  const std::string_view port = has_host ? text.substr(colon + 1) : text;
+  const std::string_view port = has_host ? where.substr(colon + 1) : where;
   const bool valid = ParsePort(port, address.port) &&
-                     ParseHost(has_host ? text.substr(0, colon) : std::string_view(), address);
+                     ParseHost(has_host ? where.substr(0, colon) : std::string_view(), address) &&
+                     (address.is_loopback || !address.without_token);
   return valid ? hal::Fault{} : WrongAddress(text);
 }
 

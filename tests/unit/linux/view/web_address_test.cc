@@ -30,6 +30,23 @@ TEST(WebAddress, AddressesThatOthersReach_AreNoLoopback) {
   EXPECT_EQ(address.Url(80), "http://[::1]:80/");
 }
 
+TEST(WebAddress, ATokenIsGivenUpByNameOnly_AndOnlyOnLoopback) {
+  for (const char* text : {":80?token=none", "80?token=none", "[::1]:80?token=none"}) {
+    WebAddress address;
+    ASSERT_TRUE(ParseWebAddress(text, address).ok()) << text;
+    EXPECT_TRUE(address.without_token) << text;
+    EXPECT_TRUE(address.is_loopback) << text;
+    EXPECT_EQ(address.port, 80) << text;
+  }
+  WebAddress address;
+  ASSERT_TRUE(ParseWebAddress(":80", address).ok());
+  EXPECT_FALSE(address.without_token);
+  for (const char* text : {"0.0.0.0:80?token=none", "[::]:80?token=none", ":80?token=", ":80?token",
+                           ":80?token=None", ":80?token=none?token=none", "?token=none"}) {
+    EXPECT_EQ(ParseWebAddress(text, address).status, Status::kInvalidUri) << text;
+  }
+}
+
 TEST(WebAddress, Rubbish_IsRefusedWithItsText) {
   for (const char* text :
        {"", ":", "x", ":x", ":-1", ":65536", ":80x", "robot:80", "1.2.3:80", "1.2.3.4", "[::1:80",

@@ -15,6 +15,8 @@ struct WebAddress {
   bool is_ipv6 = false;
   /// Only programs of this machine reach it.
   bool is_loopback = true;
+  /// Asked for by name: every program and user of this machine may look and use the buttons.
+  bool without_token = false;
 
   /// @param port The port that is listened on.
   /// @return What to type into a browser of this machine.
@@ -22,7 +24,7 @@ struct WebAddress {
 };
 
 /// @param text HOST:PORT, :PORT or PORT; HOST is an IPv4 address, an IPv6 address in brackets or
-/// localhost. Without it: loopback.
+/// localhost. Without it: loopback. On loopback `?token=none` may follow.
 /// @return kInvalidUri.
 [[nodiscard]] hal::Fault ParseWebAddress(std::string_view text, WebAddress& address);
 
