@@ -101,7 +101,7 @@ test('the page shows a tracked object, and its plots move', async () => {
 
 test('the page carries the licences of all that it is made of', async () => {
   track = await startTrack([kDemo]);
-  await open(track.url);
+  await open(track.address);
   await page.click('footer a');
   await page.waitForURL('**/licences.txt');
   const text = await page.textContent('body');
