@@ -10,7 +10,7 @@ fi
 # In the environment: other users may read a command line.
 DISFLOW_VIEW_TOKEN=$(od -An -N16 -tx1 /dev/urandom | tr -d ' \n')
 export DISFLOW_VIEW_TOKEN
-url=http://127.0.0.1:$2/?token=$DISFLOW_VIEW_TOKEN
+url="http://127.0.0.1:$2/?token=$DISFLOW_VIEW_TOKEN"
 echo "== open $url in a browser; Ctrl-C ends the demonstration"
 if command -v xdg-open >/dev/null && [ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ]; then
   (sleep 2 && xdg-open "$url" >/dev/null 2>&1) &
