@@ -62,16 +62,18 @@ TEST(WeakAxis, OfABox_IsNeverNamed) {
 TEST(WeakAxis, TurnOfACanUnderCorrelatedNoise_IsMostlySaidToBeUnknown) {
   constexpr int kAveraged = 16;
   const TrackedSequence sequence = Track(host::ObjectKind::kCan, host::NoiseKind::kD415);
-  ASSERT_GT(sequence.last().off_deg, 5.0);
   int said = 0;
   int frames = 0;
+  double farthest_deg = 0.0;
   for (const TrackedFrame& frame : sequence.frames()) {
     if (frame.index < kAveraged) continue;
     ++frames;
+    farthest_deg = std::max(farthest_deg, frame.off_deg);
     const double std_deg = static_cast<double>(frame.estimate.weak.std) * 180.0 / 3.14159;
     const bool doubts = frame.estimate.state != TrackingState::kTracking;
     if (doubts && frame.off_deg < 3.0 * std_deg) ++said;
   }
+  ASSERT_GT(farthest_deg, 10.0);
   EXPECT_GT(2 * said, frames) << said << " of " << frames;
 }
 
