@@ -107,20 +107,12 @@ class CreditedLine final : public hal::ByteLink {
     for (;;) {
       const Expected<std::size_t> size = line_.Receive(piece);
       if (!size.ok() || size.value == 0) return size.status;
-      auto rest = std::span<const std::byte>(piece).first(size.value);
-      received_.insert(received_.end(), rest.begin(), rest.end());
-      while (!rest.empty()) {
-        rest = rest.subspan(decoder_.Feed(rest));
-        TakeAnswers();
-      }
-    }
-  }
-
-  void TakeAnswers() noexcept {
-    hal::mavlink::FrameView frame;
-    hal::mavlink::DisflowReady ready;
-    while (decoder_.Next(frame)) {
-      if (DecodePayload(frame, ready) == Status::kOk) answered_ = ready.sequence;
+      const auto bytes = std::span<const std::byte>(piece).first(size.value);
+      received_.insert(received_.end(), bytes.begin(), bytes.end());
+      decoder_.ForEachFrame(bytes, nullptr, [this](const hal::mavlink::FrameView& frame) {
+        hal::mavlink::DisflowReady ready;
+        if (DecodePayload(frame, ready) == Status::kOk) answered_ = ready.sequence;
+      });
     }
   }
 

@@ -4,6 +4,7 @@
 
 #include "disflow/hal/mavlink/camera_pose_input.h"
 #include "file_in_memory.h"
+#include "message_line.h"
 
 /// Payloads of ODOMETRY with right checksums, so that the fuzzer gets behind the decoder; after
 /// each, the camera's pose is asked for at a stamp of the fuzzer's.
@@ -13,6 +14,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   CameraPoseHistory history({});
   mavlink::CameraPoseInput same({.system_id = 1}, history);
   mavlink::CameraPoseInput own({.system_id = 1, .own_clock = true}, history);
+  test::MessageLine same_line(same);
+  test::MessageLine own_line(own);
   constexpr std::size_t kHead = 9;
   constexpr std::size_t kPiece = kHead + 233;
   for (; size > kHead; data += std::min(size, kPiece), size -= std::min(size, kPiece)) {
@@ -29,7 +32,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         mavlink::EncodeFrame(odometry, {.sequence = 0, .system_id = 1, .component_id = 1}, buffer);
     // A clock starts at 0 and never gets to the end of its numbers.
     now_ns = static_cast<std::int64_t>(static_cast<std::uint64_t>(now_ns) >> 3U);
-    (data[8] % 2 == 0 ? same : own).Receive(std::span(buffer).first(encoded.value), now_ns);
+    (data[8] % 2 == 0 ? same_line : own_line)
+        .Deliver(std::span(buffer).first(encoded.value), now_ns);
     Transform<World, Camera> T_wc;
     if (history.At(now_ns, T_wc) == Status::kOk) (void)T_wc.IsFinite();
   }

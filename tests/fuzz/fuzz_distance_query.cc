@@ -4,6 +4,7 @@
 
 #include "disflow/hal/mavlink/distance_query_input.h"
 #include "file_in_memory.h"
+#include "message_line.h"
 
 /// Payloads of DISFLOW_QUERY with right checksums, so that the fuzzer gets behind the decoder: what
 /// waits can always be answered, and the answer always fits into a frame.
@@ -11,6 +12,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace disflow;
   using namespace disflow::hal;
   mavlink::DistanceQueryInput input;
+  test::MessageLine line(input);
   constexpr std::size_t kPiece = 127;
   for (; size > 0; data += std::min(size, kPiece), size -= std::min(size, kPiece)) {
     mavlink::FrameView view;
@@ -22,7 +24,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::array<std::byte, mavlink::kMaxFrameSize> buffer{};
     const auto encoded =
         mavlink::EncodeFrame(query, {.sequence = 0, .system_id = 1, .component_id = 1}, buffer);
-    input.Receive(std::span(buffer).first(encoded.value));
+    line.Deliver(std::span(buffer).first(encoded.value));
     for (const mavlink::DisflowQuery& waiting : input.waiting()) {
       fuzz::Require(waiting.count > 0 && waiting.count <= mavlink::DisflowQuery::kPoints);
       int asked = 0;

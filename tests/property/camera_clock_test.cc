@@ -8,6 +8,7 @@
 
 #include "disflow/hal/camera_pose_history.h"
 #include "disflow/hal/mavlink/camera_pose_input.h"
+#include "message_line.h"
 
 namespace disflow::hal {
 namespace {
@@ -158,7 +159,7 @@ class Carrier {
       MaybeSetClock(now_ns);
       for (; sent_at_ns_ <= now_ns; sent_at_ns_ += period_ns_) Send();
       while (!on_their_way_.empty() && on_their_way_.front().arrives_ns <= now_ns) {
-        input_.Receive(on_their_way_.front().bytes, now_ns);
+        line_.Deliver(on_their_way_.front().bytes, now_ns);
         on_their_way_.erase(on_their_way_.begin());
       }
       Ask(now_ns);
@@ -225,6 +226,7 @@ class Carrier {
   std::int64_t sender_minus_own_ns_;
   CameraPoseHistory history_{Live()};
   mavlink::CameraPoseInput input_{{.system_id = 1, .own_clock = true}, history_};
+  test::MessageLine<mavlink::CameraPoseInput> line_{input_};
   std::vector<OnItsWay> on_their_way_;
   std::int64_t sent_at_ns_ = kStart_ns;
   std::int64_t event_ns_ = kStart_ns;

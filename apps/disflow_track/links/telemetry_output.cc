@@ -103,15 +103,11 @@ void TelemetryOutput::Receive(std::int64_t capture_now_ns) noexcept {
 }
 
 void TelemetryOutput::ReceiveOn(Line& line, std::int64_t capture_now_ns) noexcept {
-  std::span<const std::byte> bytes = line.reader.Read(*line.link.get());
-  hal::mavlink::FrameView frame;
-  while (!bytes.empty()) {
-    bytes = bytes.subspan(line.decoder.Feed(bytes));
-    while (line.decoder.Next(frame, line.session)) {
-      line.queries.Take(frame);
-      if (line.camera_pose) line.camera_pose->Take(frame, capture_now_ns);
-    }
-  }
+  line.decoder.ForEachFrame(line.reader.Read(*line.link.get()), line.session,
+                            [&](const hal::mavlink::FrameView& frame) {
+                              line.queries.Take(frame);
+                              if (line.camera_pose) line.camera_pose->Take(frame, capture_now_ns);
+                            });
   SayRefusals(line);
 }
 

@@ -25,14 +25,6 @@ bool ToPose(const Odometry& odometry, Transform<World, Body, double>& T_wb) noex
 
 }  // namespace
 
-void CameraPoseInput::Receive(std::span<const std::byte> bytes, std::int64_t now_ns) noexcept {
-  FrameView frame;
-  while (!bytes.empty()) {
-    bytes = bytes.subspan(decoder_.Feed(bytes));
-    while (decoder_.Next(frame)) Take(frame, now_ns);
-  }
-}
-
 void CameraPoseInput::Take(const FrameView& frame, std::int64_t now_ns) noexcept {
   Odometry odometry;
   if (DecodePayload(frame, odometry) != Status::kOk) return;

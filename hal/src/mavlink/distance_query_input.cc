@@ -5,14 +5,6 @@
 
 namespace disflow::hal::mavlink {
 
-void DistanceQueryInput::Receive(std::span<const std::byte> bytes) noexcept {
-  FrameView frame;
-  while (!bytes.empty()) {
-    bytes = bytes.subspan(decoder_.Feed(bytes));
-    while (decoder_.Next(frame)) Take(frame);
-  }
-}
-
 void DistanceQueryInput::Take(const FrameView& frame) noexcept {
   DisflowQuery query;
   if (DecodePayload(frame, query) != Status::kOk || query.target_system != system_id_) return;

@@ -30,8 +30,7 @@ Expected<std::uint8_t> CrcExtraOfUnsigned(std::span<const std::byte> frame) noex
   if (frame.size() < kHeaderSize + kChecksumSize || ByteAt(frame, 0) != kMagic) return kNone;
   if (ByteAt(frame, 2) != 0) return kNone;
   if (frame.size() != kHeaderSize + ByteAt(frame, 1) + kChecksumSize) return kNone;
-  return CrcExtraOf(ByteAt(frame, 7) | (std::uint32_t{ByteAt(frame, 8)} << 8U) |
-                    (std::uint32_t{ByteAt(frame, 9)} << 16U));
+  return CrcExtraOf(MessageIdOf(frame));
 }
 
 }  // namespace

@@ -51,12 +51,7 @@ class Receiver {
       const ssize_t size = ::recvfrom(socket_.get(), buffer.data(), buffer.size(), MSG_DONTWAIT,
                                       reinterpret_cast<sockaddr*>(&sender_), &sender_size);
       if (size <= 0) return;
-      std::span<const std::byte> bytes(buffer.data(), static_cast<std::size_t>(size));
-      mavlink::FrameView frame;
-      while (!bytes.empty()) {
-        bytes = bytes.subspan(decoder_.Feed(bytes));
-        while (decoder_.Next(frame, session)) use(frame);
-      }
+      decoder_.ForEachFrame(std::span(buffer).first(static_cast<std::size_t>(size)), session, use);
     }
   }
   /// To whoever sent last.

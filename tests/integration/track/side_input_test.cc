@@ -100,15 +100,14 @@ TEST_F(SideInputTest, OdometryOfTheCarrier_GivesTheObjectInTheWorld) {
       for (const auto& message : Messages()) carrier.SendTo(own, message);
     }
     sent = true;
-    (void)decoder.Feed(std::span(buffer).first(size));
-    mavlink::FrameView frame;
-    mavlink::Odometry odometry;
-    while (decoder.Next(frame)) {
+    const auto bytes = std::span<const std::byte>(buffer).first(size);
+    decoder.ForEachFrame(bytes, nullptr, [&in_world](const mavlink::FrameView& frame) {
+      mavlink::Odometry odometry;
       if (mavlink::DecodePayload(frame, odometry) == Status::kOk &&
           odometry.frame_id == static_cast<std::uint8_t>(mavlink::MavFrame::kLocalNed)) {
         in_world.push_back(odometry);
       }
-    }
+    });
   }
   const Outcome outcome = track.Wait();
   ASSERT_EQ(outcome.exit_status, 0) << outcome.err;

@@ -165,7 +165,6 @@ int Send(hal::ByteLink& link, SigningSession* session, const char* path) {
 int Receive(hal::ByteLink& link, SigningSession* session, std::uint32_t count) {
   posix::MonotonicClock clock;
   FrameDecoder decoder;
-  FrameView frame;
   std::array<std::byte, 2048> buffer{};  // A datagram is never longer here.
   std::cout << "\"ready\"" << std::endl;
   for (int waited_ms = 0; waited_ms < kPatienceMs && decoder.counters().frames < count;) {
@@ -175,17 +174,14 @@ int Receive(hal::ByteLink& link, SigningSession* session, std::uint32_t count) {
       clock.SleepUntilNs(clock.NowNs() + kNsPerMs);
       ++waited_ms;
     }
-    auto bytes = std::span<const std::byte>(buffer).first(received.value);
-    while (!bytes.empty()) {
-      bytes = bytes.subspan(decoder.Feed(bytes));
-      while (decoder.Next(frame, session)) {
-        // Whichever it is; the decoder knows no other.
-        (void)(PrintIf<Heartbeat>(frame) || PrintIf<Odometry>(frame) ||
-               PrintIf<DisflowStatus>(frame) || PrintIf<DisflowReady>(frame) ||
-               PrintIf<DisflowTiming>(frame) || PrintIf<DisflowQuery>(frame) ||
-               PrintIf<DisflowField>(frame));
-      }
-    }
+    const auto bytes = std::span<const std::byte>(buffer).first(received.value);
+    decoder.ForEachFrame(bytes, session, [](const FrameView& frame) {
+      // Whichever it is; the decoder knows no other.
+      (void)(PrintIf<Heartbeat>(frame) || PrintIf<Odometry>(frame) ||
+             PrintIf<DisflowStatus>(frame) || PrintIf<DisflowReady>(frame) ||
+             PrintIf<DisflowTiming>(frame) || PrintIf<DisflowQuery>(frame) ||
+             PrintIf<DisflowField>(frame));
+    });
   }
   const DecoderCounters& counters = decoder.counters();
   std::cout << json{{"frames", counters.frames},

@@ -8,6 +8,7 @@
 
 #include "disflow/hal/camera_pose_history.h"
 #include "disflow/hal/mavlink/camera_pose_input.h"
+#include "message_line.h"
 
 namespace disflow::hal {
 namespace {
@@ -200,12 +201,13 @@ std::vector<std::byte> Message(double seconds, std::uint8_t system, mavlink::Mav
 TEST(CameraPoseInput, OdometryOfTheCarrier_BecomesTheCamerasPose) {
   CameraPoseHistory history(WithOffset());
   mavlink::CameraPoseInput input({.system_id = 1}, history);
+  test::MessageLine line(input);
   for (int i = 0; i < 10; ++i) {
     const auto bytes = Message(i * 0.02, 1, mavlink::MavFrame::kLocalFrd,
                                1'000'000 + static_cast<std::uint64_t>(i) * 20'000);
     // In pieces, as a serial line delivers them.
-    input.Receive(std::span(bytes).first(40), 0);
-    input.Receive(std::span(bytes).subspan(40), 0);
+    line.Deliver(std::span(bytes).first(40), 0);
+    line.Deliver(std::span(bytes).subspan(40), 0);
   }
   Transform<World, Camera> T_wc;
   ASSERT_EQ(history.At(1'000 * kMs + 70 * kMs, T_wc), Status::kOk);
@@ -215,9 +217,10 @@ TEST(CameraPoseInput, OdometryOfTheCarrier_BecomesTheCamerasPose) {
 TEST(CameraPoseInput, OthersOdometry_IsCountedAndLeftOut) {
   CameraPoseHistory history(WithOffset());
   mavlink::CameraPoseInput input({.system_id = 1}, history);
-  input.Receive(Message(0.0, 2, mavlink::MavFrame::kLocalFrd, 1), 0);
-  input.Receive(Message(0.0, 1, mavlink::MavFrame::kLocalEnu, 2), 0);
-  input.Receive(Message(0.0, 1, mavlink::MavFrame::kLocalFrd, 3, -1), 0);
+  test::MessageLine line(input);
+  line.Deliver(Message(0.0, 2, mavlink::MavFrame::kLocalFrd, 1), 0);
+  line.Deliver(Message(0.0, 1, mavlink::MavFrame::kLocalEnu, 2), 0);
+  line.Deliver(Message(0.0, 1, mavlink::MavFrame::kLocalFrd, 3, -1), 0);
   EXPECT_EQ(input.counters().other_system, 1U);
   EXPECT_EQ(input.counters().other_frame, 1U);
   EXPECT_EQ(input.counters().failed, 1U);
@@ -228,12 +231,13 @@ TEST(CameraPoseInput, OthersOdometry_IsCountedAndLeftOut) {
 TEST(CameraPoseInput, SendersOwnClock_IsLearntFromTheQuickestMessages) {
   CameraPoseHistory history(WithOffset());
   mavlink::CameraPoseInput input({.system_id = 1, .own_clock = true}, history);
+  test::MessageLine line(input);
   constexpr std::int64_t kOffset_ns = 5'000'000 * kMs;
   for (int i = 0; i < 50; ++i) {
     const std::int64_t latency_ns = (2 + (i * 7) % 11) * kMs;
     const auto bytes =
         Message(i * 0.02, 1, mavlink::MavFrame::kLocalFrd, static_cast<std::uint64_t>(i) * 20'000);
-    input.Receive(bytes, i * 20 * kMs + kOffset_ns + latency_ns);
+    line.Deliver(bytes, i * 20 * kMs + kOffset_ns + latency_ns);
   }
   Transform<World, Camera> T_wc;
   ASSERT_EQ(history.At(kOffset_ns + 900 * kMs + 2 * kMs, T_wc), Status::kOk);
@@ -243,11 +247,13 @@ TEST(CameraPoseInput, SendersOwnClock_IsLearntFromTheQuickestMessages) {
 TEST(CameraPoseInput, StampsAtTheEndOfTime_DoNoHarm) {
   CameraPoseHistory history(WithOffset());
   mavlink::CameraPoseInput input({.system_id = 1, .own_clock = true}, history);
+  test::MessageLine line(input);
   mavlink::CameraPoseInput same({.system_id = 1}, history);
+  test::MessageLine same_line(same);
   for (const std::uint64_t stamp :
        {std::uint64_t{0}, std::numeric_limits<std::uint64_t>::max(), std::uint64_t{1} << 63U}) {
-    input.Receive(Message(0.0, 1, mavlink::MavFrame::kLocalFrd, stamp), 5);
-    same.Receive(Message(0.0, 1, mavlink::MavFrame::kLocalFrd, stamp), 5);
+    line.Deliver(Message(0.0, 1, mavlink::MavFrame::kLocalFrd, stamp), 5);
+    same_line.Deliver(Message(0.0, 1, mavlink::MavFrame::kLocalFrd, stamp), 5);
   }
   // One comes to lie at the moment of arrival; one is older, the others are far away.
   EXPECT_EQ(history.counters().poses, 1U);

@@ -7,6 +7,8 @@
 #include <random>
 #include <vector>
 
+#include "message_line.h"
+
 namespace disflow::hal::mavlink {
 namespace {
 
@@ -34,8 +36,9 @@ DisflowQuery Question(std::uint32_t request, std::uint8_t count) {
 
 TEST(DistanceQueryInput, QuestionsInAnyPieces_WaitInOrder) {
   DistanceQueryInput input;
+  test::MessageLine line(input);
   for (std::uint32_t i = 0; i < 3; ++i) {
-    for (const std::byte byte : Encoded(Question(i, 2))) input.Receive(std::span(&byte, 1));
+    for (const std::byte byte : Encoded(Question(i, 2))) line.Deliver(std::span(&byte, 1));
   }
   ASSERT_EQ(input.waiting().size(), 3);
   for (int i = 0; i < 3; ++i) {
@@ -47,19 +50,21 @@ TEST(DistanceQueryInput, QuestionsInAnyPieces_WaitInOrder) {
 
 TEST(DistanceQueryInput, MoreThanFit_AreRefusedAndCounted) {
   DistanceQueryInput input;
-  for (std::uint32_t i = 0; i < 10; ++i) input.Receive(Encoded(Question(i, 1)));
+  test::MessageLine line(input);
+  for (std::uint32_t i = 0; i < 10; ++i) line.Deliver(Encoded(Question(i, 1)));
   EXPECT_EQ(input.waiting().size(), DistanceQueryInput::kMaxWaiting);
   EXPECT_EQ(input.refused(), 10U - DistanceQueryInput::kMaxWaiting);
   input.Clear();
-  input.Receive(Encoded(Question(77, 1)));
+  line.Deliver(Encoded(Question(77, 1)));
   ASSERT_EQ(input.waiting().size(), 1);
   EXPECT_EQ(input.waiting()[0].request, 77U);
 }
 
 TEST(DistanceQueryInput, NoPointOrTooMany_IsRefused) {
   DistanceQueryInput input;
+  test::MessageLine line(input);
   for (const int count : {0, 11, 255}) {
-    input.Receive(Encoded(Question(1, static_cast<std::uint8_t>(count))));
+    line.Deliver(Encoded(Question(1, static_cast<std::uint8_t>(count))));
   }
   EXPECT_EQ(input.waiting().size(), 0);
   EXPECT_EQ(input.refused(), 3U);
@@ -67,9 +72,10 @@ TEST(DistanceQueryInput, NoPointOrTooMany_IsRefused) {
 
 TEST(DistanceQueryInput, QuestionToAnotherSystem_IsNotOurs) {
   DistanceQueryInput input;
+  test::MessageLine line(input);
   DisflowQuery query = Question(1, 1);
   query.target_system = 1;
-  input.Receive(Encoded(query));
+  line.Deliver(Encoded(query));
   EXPECT_EQ(input.waiting().size(), 0);
   EXPECT_EQ(input.refused(), 0U);
 }
@@ -77,14 +83,15 @@ TEST(DistanceQueryInput, QuestionToAnotherSystem_IsNotOurs) {
 TEST(DistanceQueryInput, AmongGarbage_EveryWholeQuestionIsFound) {
   std::mt19937 random(3);
   DistanceQueryInput input;
+  test::MessageLine line(input);
   int found = 0;
   for (std::uint32_t i = 0; i < 200; ++i) {
     std::vector<std::byte> garbage(random() % 300);
     for (std::byte& byte : garbage) byte = static_cast<std::byte>(random());
     // Never the start of a frame that would swallow what follows.
     std::replace(garbage.begin(), garbage.end(), std::byte{kMagic}, std::byte{0});
-    input.Receive(garbage);
-    input.Receive(Encoded(Question(i, 10)));
+    line.Deliver(garbage);
+    line.Deliver(Encoded(Question(i, 10)));
     found += input.waiting().size();
     input.Clear();
   }

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "disflow/hal/camera_pose_history.h"
-#include "disflow/hal/mavlink/frame_decoder.h"
+#include "disflow/hal/mavlink/frame.h"
 #include "disflow/hal/mavlink/messages.h"
 #include "disflow/hal/sender_clock.h"
 
@@ -28,15 +26,14 @@ struct CameraPoseInputCounters {
   std::uint32_t failed = 0;        ///< The sender reported that its estimate failed.
 };
 
-/// Reads the bytes or the frames of one link and puts the carrier's ODOMETRY into a history.
+/// Puts the carrier's ODOMETRY of one link into a history.
 class CameraPoseInput {
  public:
   CameraPoseInput(const CameraPoseSource& source, CameraPoseHistory& history) noexcept
       : source_(source), history_(&history) {}
 
+  /// Other messages are passed over.
   /// @param now_ns Now, on the clock of the depth images.
-  void Receive(std::span<const std::byte> bytes, std::int64_t now_ns) noexcept;
-  /// For those who decode the bytes themselves.
   void Take(const FrameView& frame, std::int64_t now_ns) noexcept;
 
   [[nodiscard]] const CameraPoseInputCounters& counters() const noexcept { return counters_; }
@@ -49,7 +46,6 @@ class CameraPoseInput {
 
   CameraPoseSource source_;
   CameraPoseHistory* history_;
-  FrameDecoder decoder_;
   CameraPoseInputCounters counters_;
   std::uint8_t refused_frame_ = 0;
   SenderClock clock_;

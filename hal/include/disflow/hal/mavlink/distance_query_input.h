@@ -5,18 +5,17 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <span>
 
 #include "disflow/field/distance_query.h"
-#include "disflow/hal/mavlink/frame_decoder.h"
+#include "disflow/hal/mavlink/frame.h"
 #include "disflow/hal/mavlink/messages.h"
 #include "disflow/hal/mavlink/telemetry.h"
 #include "disflow/memory/fixed_vector.h"
 
 namespace disflow::hal::mavlink {
 
-/// Reads the bytes or the frames of one link and keeps the questions until they are answered. There
-/// is room for few: answering is bounded work between two frames.
+/// Keeps the questions of one link until they are answered. There is room for few: answering is
+/// bounded work between two frames.
 class DistanceQueryInput {
  public:
   static constexpr int kMaxWaiting = 4;
@@ -25,8 +24,7 @@ class DistanceQueryInput {
   explicit DistanceQueryInput(std::uint8_t system_id = TelemetryOptions{}.system_id) noexcept
       : system_id_(system_id) {}
 
-  void Receive(std::span<const std::byte> bytes) noexcept;
-  /// For those who decode the bytes themselves.
+  /// Other messages are passed over.
   void Take(const FrameView& frame) noexcept;
 
   /// Oldest first; `count` is from 1 to DisflowQuery::kPoints.
@@ -39,7 +37,6 @@ class DistanceQueryInput {
 
  private:
   std::uint8_t system_id_;
-  FrameDecoder decoder_;
   FixedVector<DisflowQuery, kMaxWaiting> waiting_;
   std::uint32_t refused_ = 0;
 };

@@ -29,7 +29,13 @@ inline constexpr std::uint8_t kFlagSigned = 0x01;
 template <class Message>
 inline constexpr std::size_t kFrameSize = kHeaderSize + PayloadSize<Message>() + kChecksumSize;
 
-/// Who sends, and the how-manieth frame of that sender.
+/// @param frame At least kHeaderSize bytes.
+[[nodiscard]] constexpr std::uint32_t MessageIdOf(std::span<const std::byte> frame) noexcept {
+  const auto at = [frame](std::size_t i) { return std::to_integer<std::uint32_t>(frame[i]); };
+  return at(7) | (at(8) << 8U) | (at(9) << 16U);
+}
+
+/// Who sends, and the number of the frame among that sender's.
 struct FrameHeader {
   std::uint8_t sequence = 0;
   std::uint8_t system_id = 0;

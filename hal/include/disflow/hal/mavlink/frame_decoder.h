@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 
 #include "disflow/hal/mavlink/frame.h"
 #include "disflow/hal/mavlink/signing_session.h"
@@ -33,12 +34,8 @@ struct DecoderCounters {
 /// When a presumed header turns out not to be one, the search resumes at the very next byte, so
 /// that garbage never costs the frame that follows it. Fixed memory; not thread-safe.
 ///
-/// @code
-/// while (!bytes.empty()) {
-///   bytes = bytes.subspan(decoder.Feed(bytes));
-///   while (decoder.Next(frame)) Use(frame);
-/// }
-/// @endcode
+/// ForEachFrame() is all that most callers need; Feed() and Next() are for those that stop in
+/// between.
 class FrameDecoder {
  public:
   /// Takes as many bytes as fit; always at least one if Next() was called until it returned false.
@@ -52,6 +49,18 @@ class FrameDecoder {
   /// @return false if more bytes are needed (`frame` is unchanged then).
   [[nodiscard]] bool Next(FrameView& frame, SigningSession* session = nullptr) noexcept;
 
+  /// Takes all of `bytes`, and calls use(const FrameView&) for every frame that they complete; its
+  /// payload is valid until `use` returns.
+  /// @param session As for Next(); may be null.
+  template <class Use>
+  void ForEachFrame(std::span<const std::byte> bytes, SigningSession* session, Use&& use) noexcept {
+    FrameView frame;
+    while (!bytes.empty()) {
+      bytes = bytes.subspan(Feed(bytes));
+      while (Next(frame, session)) use(std::as_const(frame));
+    }
+  }
+
   [[nodiscard]] const DecoderCounters& counters() const noexcept { return counters_; }
 
  private:
@@ -64,7 +73,7 @@ class FrameDecoder {
     return std::to_integer<std::uint8_t>(buffer_[begin_ + offset]);
   }
   [[nodiscard]] std::uint32_t MessageId() const noexcept {
-    return At(7) | (std::uint32_t{At(8)} << 8U) | (std::uint32_t{At(9)} << 16U);
+    return MessageIdOf(std::span(buffer_).subspan(begin_));
   }
 
   std::array<std::byte, kMaxFrameSize> buffer_{};
