@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
 #include <sstream>
+#include <vector>
 
 #include "disflow/host/png_image.h"
 #include "recorded_sequence.h"
@@ -111,6 +113,40 @@ TEST_F(RecordedSequence, FrameOfAnotherSize_IsRefused) {
   EXPECT_EQ(writer.AddFrame(frame).status, Status::kInvalidImageSize);
   EXPECT_EQ(writer.AddMask("gt", wide.gt_mask()).status, Status::kMaskSizeMismatch);
   EXPECT_EQ(writer.frame_count(), 1);
+}
+
+// A camera's pose that comes over a link is known when its first messages have arrived, and is
+// missed now and then later on.
+TEST_F(RecordedSequence, WorldPosesOfSomeFrames_AreReplayedWithThose) {
+  for (const std::set<int>& posed :
+       std::vector<std::set<int>>{{}, {0}, {2, 3, 5}, {kFrames - 1}, {0, 1, 2, 3, 4, 5}}) {
+    const apps::ScratchDir dir;
+    SequenceWriter writer;
+    ASSERT_TRUE(writer.Open(dir.path() / "s", "box", false).ok());
+    Simulation simulation(Options(), MakeObjectMesh(ObjectKind::kBox));
+    for (int i = 0; i < kFrames; ++i) {
+      DepthFrame frame;
+      simulation.Render(i, frame);
+      frame.has_T_wc = posed.count(i) > 0;
+      ASSERT_TRUE(writer.AddFrame(frame).ok());
+    }
+    ASSERT_TRUE(writer.Finish().ok());
+    EXPECT_EQ(fs::exists(dir.path() / "s" / "T_wc.txt"), !posed.empty());
+    ReplayOptions replay;
+    replay.dir = dir.path() / "s";
+    ReplaySensor sensor(replay);
+    const hal::Fault opened = sensor.Open();
+    ASSERT_TRUE(opened.ok()) << opened.message;
+    const std::vector<CopiedFrame> replayed = PlayAll(sensor);
+    ASSERT_EQ(replayed.size(), std::size_t{kFrames});
+    for (int i = 0; i < kFrames; ++i) {
+      const DepthFrame& frame = replayed[static_cast<std::size_t>(i)].frame;
+      ASSERT_EQ(frame.has_T_wc, posed.count(i) > 0) << "frame " << i;
+      if (!frame.has_T_wc) continue;
+      const Transform<World, Camera>& T_wc = frames_[static_cast<std::size_t>(i)].frame.T_wc;
+      EXPECT_LT((frame.T_wc.translation() - T_wc.translation()).norm(), 1e-7F);
+    }
+  }
 }
 
 TEST(SequenceWriter, Z16_IsWrittenInMetres) {

@@ -91,7 +91,7 @@ Fault ReplaySensor::State::ReadFrame(const RecordedFrame& source, DepthFrame& fr
   frame = DepthFrame{};
   frame.camera = index.camera.camera;
   frame.stamp_ns = source.stamp_ns;
-  frame.has_T_wc = index.has_T_wc;
+  frame.has_T_wc = source.has_T_wc;
   frame.T_wc = source.T_wc;
   Fault fault = ReadDepth(source, frame);
   if (fault.ok() && (frame.depth.width_px != width_px || frame.depth.height_px != height_px)) {

@@ -20,6 +20,7 @@ struct RecordedFrame {
   /// One per object, in the order of their labels; empty = this image has none.
   std::vector<std::filesystem::path> masks;
   StampNs stamp_ns = 0;
+  bool has_T_wc = false;
   Transform<World, Camera> T_wc;
 };
 
@@ -28,7 +29,6 @@ struct SequenceIndex {
   CameraDescription camera;
   bool float_depth = false;  ///< Fast-YCB's .float files; else 16-bit PNG.
   int masked_objects = 0;    ///< 0: there are no masks.
-  bool has_T_wc = false;
   std::vector<RecordedFrame> frames;  ///< Never empty after success.
   /// Frames at the end that are not whole and left out, since the recording was cut short.
   std::size_t cut_frames = 0;

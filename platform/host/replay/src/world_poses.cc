@@ -21,7 +21,7 @@ hal::Fault CountFault(const fs::path& path, std::size_t count, std::size_t image
                         path.c_str(), count, images);
 }
 
-/// `x y z nx ny nz theta` per line.
+/// `x y z nx ny nz theta` per line, or kNoWorldPose.
 hal::Fault ReadAxisAnglePoses(const fs::path& file, SequenceIndex& index) {
   std::vector<RecordedFrame>& frames = index.frames;
   TextTable table;
@@ -34,16 +34,19 @@ hal::Fault ReadAxisAnglePoses(const fs::path& file, SequenceIndex& index) {
   }
   std::vector<double> n;
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    fault = table.ParseNumbers(table.rows()[i], 7, n);
+    const TableRow& row = table.rows()[i];
+    if (row.fields.size() == 1 && row.fields[0] == kNoWorldPose) continue;
+    fault = table.ParseNumbers(row, 7, n);
     if (!fault.ok()) return fault;
     const Vec3d axis(n[3], n[4], n[5]);
     constexpr double kTolerance = 0.01;
     if (std::abs(axis.norm() - 1.0) > kTolerance) {
-      return table.LineFault(table.rows()[i], "the rotation axis is not of unit length");
+      return table.LineFault(row, "the rotation axis is not of unit length");
     }
     const Transform<World, Camera, double> pose(ExpSo3(Vec3d(axis.normalized() * n[6])),
                                                 Vec3d(n[0], n[1], n[2]));
     frames[i].T_wc = pose.Cast<float>();
+    frames[i].has_T_wc = true;
   }
   return {};
 }
@@ -84,6 +87,7 @@ hal::Fault ReadPoseFolder(const fs::path& dir, std::vector<RecordedFrame>& frame
   if (files.size() != frames.size()) return CountFault(folder, files.size(), frames.size());
   for (std::size_t i = 0; i < frames.size() && fault.ok(); ++i) {
     fault = ReadMatrixPose(files[i].path, frames[i].T_wc);
+    frames[i].has_T_wc = true;
   }
   return fault;
 }
@@ -93,11 +97,9 @@ hal::Fault ReadPoseFolder(const fs::path& dir, std::vector<RecordedFrame>& frame
 hal::Fault ReadWorldPoses(const ReplayOptions& options, SequenceIndex& index) {
   const fs::path file = options.dir / kWorldPoseFile;
   if (options.world_poses == WorldPoses::kPoseFolder) {
-    index.has_T_wc = true;
     return ReadPoseFolder(options.dir, index.frames);
   }
   if (options.world_poses == WorldPoses::kNone || !fs::exists(file)) return {};
-  index.has_T_wc = true;
   return ReadAxisAnglePoses(file, index);
 }
 

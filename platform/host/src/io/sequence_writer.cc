@@ -110,9 +110,7 @@ hal::Fault SequenceWriter::WriteFrame(const DepthFrame& frame) {
   hal::Fault fault;
   if (frames_ == 0) fault = WriteCamera(frame);
   if (fault.ok()) fault = WriteDepth(frame.depth);
-  if (fault.ok() && frame.has_T_wc) {
-    fault = AppendLine(world_poses_, kWorldPoseFile, FormatPose(frame.T_wc.Cast<double>()));
-  }
+  if (fault.ok()) fault = WriteWorldPose(frame);
   if (!fault.ok()) return GiveUp(fault);
   std::array<char, 64> line{};
   constexpr StampNs kNsPerS = 1'000'000'000;
@@ -123,6 +121,17 @@ hal::Fault SequenceWriter::WriteFrame(const DepthFrame& frame) {
   pending_ = true;
   ++frames_;
   return {};
+}
+
+/// Nothing as long as no frame has one.
+hal::Fault SequenceWriter::WriteWorldPose(const DepthFrame& frame) {
+  if (!frame.has_T_wc && !world_poses_.is_open()) return {};
+  std::string line;
+  if (!world_poses_.is_open()) {
+    for (int i = 0; i < frames_; ++i) line += std::string(kNoWorldPose) + '\n';
+  }
+  line += frame.has_T_wc ? FormatPose(frame.T_wc.Cast<double>()) : kNoWorldPose;
+  return AppendLine(world_poses_, kWorldPoseFile, line);
 }
 
 hal::Fault SequenceWriter::CompleteFrame() {

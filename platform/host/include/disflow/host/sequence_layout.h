@@ -18,6 +18,8 @@ inline constexpr const char* kTruthFolder = "gt";
 inline constexpr const char* kPoseFile = "poses.txt";
 inline constexpr const char* kVelocityFile = "velocities.txt";
 inline constexpr const char* kWorldPoseFile = "T_wc.txt";
+/// Its line of a frame for which the camera's pose was not known.
+inline constexpr const char* kNoWorldPose = "none";
 inline constexpr const char* kPoseFolder = "pose";
 inline constexpr const char* kDepthExtension = ".float";
 inline constexpr const char* kImageExtension = ".png";

@@ -18,7 +18,8 @@ namespace disflow::host {
 /// Writes a sequence in the Fast-YCB layout: cam_K.json, depth/I.float, masks/SET/OBJECT_I
 /// .png, data.txt; if given also gt/poses.txt, gt/velocities.txt, infrared/I.png and T_wc.txt.
 ///
-/// T_wc.txt is this project's addition: one line `x y z nx ny nz theta` per frame, camera in world.
+/// T_wc.txt is this project's addition: one line `x y z nx ny nz theta` per frame, camera in world,
+/// or `none`. It begins with the first frame that has one, with lines for those before.
 /// So is a folder gt/OBJECT for each of several objects, in place of gt alone.
 ///
 /// Whatever ends the program, or fills the disk, costs the frame that is being written and no
@@ -77,6 +78,7 @@ class SequenceWriter {
   /// @return The same, after which nothing more is written.
   [[nodiscard]] hal::Fault GiveUp(const hal::Fault& fault);
   [[nodiscard]] hal::Fault WriteFrame(const DepthFrame& frame);
+  [[nodiscard]] hal::Fault WriteWorldPose(const DepthFrame& frame);
   [[nodiscard]] hal::Fault WriteMask(std::string_view object, std::string_view set,
                                      const MaskView& mask);
   [[nodiscard]] hal::Fault WriteImage(const std::filesystem::path& file, const MaskView& image);
