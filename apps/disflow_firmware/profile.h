@@ -33,11 +33,9 @@ using Profile = Small;
 using Profile = profiles::Micro;
 #endif
 
-/// Settings of the tracker for images of this size: an object has few pixels, and two of them all
-/// around its outline are too many to leave out.
+/// Settings of the tracker for images of this size.
 [[nodiscard]] inline Config FirmwareConfig() noexcept {
   Config config;
-  config.sampler.border_px = 1;
   // Outlines this coarse agree with few of the model's edges but are needed nevertheless.
   config.registration.edge_agreement = 0.0F;
   return config;

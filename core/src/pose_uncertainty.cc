@@ -35,10 +35,6 @@ float Duration_s(const Vec6& direction) noexcept {
                    direction.tail<3>().squaredNorm() / (kAnyRate_rps * kAnyRate_rps));
 }
 
-float GeometricMeanVariance(const Mat3& covariance) noexcept {
-  return std::cbrt(std::max(covariance.determinant(), 0.0F));
-}
-
 }  // namespace
 
 PoseUncertainty FindPoseUncertainty(const RegistrationInformation& information,
@@ -74,13 +70,12 @@ PoseUncertainty FindPoseUncertainty(const RegistrationInformation& information,
   return result;
 }
 
-Mat6 WithDrift(const Mat6& covariance, float pieces, const RegistrationConfig& config) noexcept {
-  Mat6 result = (1.0F + pieces) * covariance;
-  const float position_m2 = GeometricMeanVariance(covariance.topLeftCorner<3, 3>());
-  const float rotation_rad2 = GeometricMeanVariance(covariance.bottomRightCorner<3, 3>());
-  result.diagonal().head<3>().array() += config.drift_position * pieces * position_m2;
-  result.diagonal().tail<3>().array() += config.drift_rotation * pieces * rotation_rad2;
-  return result;
+float RememberGradientVariance(float before_rad2, float by_frame_rad2) noexcept {
+  // As long as a sample of the model takes to average its noise away (field.freeze_after).
+  constexpr float kFrames = 15.0F;
+  // Written so that NaN changes nothing.
+  if (!(by_frame_rad2 >= 0.0F)) return before_rad2;
+  return std::max(by_frame_rad2, before_rad2 + (by_frame_rad2 - before_rad2) / kFrames);
 }
 
 Mat3 OffTangent(const Mat6& covariance) noexcept {

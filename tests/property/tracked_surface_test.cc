@@ -131,10 +131,10 @@ class TrackedSurface : public ::testing::Test {
                       [this](const Vec3d& point_m) { return seen.HitsAt(point_m) < kWell; });
       if (nearest_m > kWithin_m) ++inside;
     }
-    // Some vertices may lie on the wrong side of the bounds: rounding differs by machine, and a
-    // place of a cluster's size may be missing where one was forgotten (docs/results.md).
-    EXPECT_LE(100 * inside, 7 * static_cast<int>(border.size()))
-        << inside << " of " << border.size();
+    // Of the whole mesh, for a mesh that is less open has less border: rounding differs by machine,
+    // and a place of a cluster's size may be missing where one was forgotten (docs/results.md).
+    EXPECT_LE(1000 * inside, static_cast<int>(vertices_m.size()))
+        << inside << " of a border of " << border.size();
   }
 
   static constexpr int kTruePoints = 12000;

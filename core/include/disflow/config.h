@@ -35,7 +35,7 @@ struct SamplerConfig {
   int target_blocks = 1600;
   int min_block_px = 2;
   int max_block_px = 16;
-  int border_px = 2;
+  int border_px = 1;
   float min_cos_incidence = 0.12F;
   float min_fill = 0.5F;
   float max_residual_sigmas = 2.5F;
@@ -84,8 +84,8 @@ struct RegistrationConfig {
   int score_points = 120;
   float gradient_std_rad = 0.025F;
   float white_noise_share = 1.0F;
-  float drift_position = 8.0F;
-  float drift_rotation = 0.5F;
+  float drift_px = 0.5F;
+  float drift_tilt = 0.3F;
 };
 
 /// Velocity at the capture time.

@@ -66,7 +66,7 @@ constexpr void VisitFields(ConfigType& config, Visitor&& visitor) {
   field("sampler.min_block_px", sam.min_block_px, 1, 64, "px", "smallest block edge");
   field("sampler.max_block_px", sam.max_block_px, 1, 64, "px", "largest block edge");
   field("sampler.border_px", sam.border_px, 0, 16, "px",
-        "pixels this close to the object's outline are not fitted");
+        "pixels this close to the object's outline are not fitted: those on it are mixed");
   field("sampler.min_cos_incidence", sam.min_cos_incidence, 0.0, 0.99, "1",
         "surfaces seen at a smaller cosine between ray and normal are rejected as grazing");
   field("sampler.min_fill", sam.min_fill, 0.05, 1.0, "1",
@@ -153,11 +153,10 @@ constexpr void VisitFields(ConfigType& config, Visitor&& visitor) {
   field("registration.white_noise_share", reg.white_noise_share, 0.01, 100.0, "1",
         "share of the pose covariance that changes from frame to frame, as the twist filter takes "
         "it");
-  field("registration.drift_position", reg.drift_position, 0.0, 1e4, "1",
-        "what each piece of surface between the first view and the present one adds to the "
-        "position's variance, in multiples of the registration's own");
-  field("registration.drift_rotation", reg.drift_rotation, 0.0, 1e4, "1",
-        "the same for the rotation");
+  field("registration.drift_px", reg.drift_px, 0.0, 100.0, "px",
+        "how far off each piece of surface is that the model has grown by since the first view");
+  field("registration.drift_tilt", reg.drift_tilt, 0.0, 100.0, "1",
+        "how far it is turned, in multiples of a pixel's depth noise at the object's radius");
   auto& twist = config.twist;
   field("twist.linear_jerk_psd", twist.linear_jerk_psd, 1e-6, 1e9, "m^2/s^5",
         "power density of the jerk, translation");

@@ -118,8 +118,8 @@ class Tracker {
   [[nodiscard]] bool IsSameObjectFrame(const DepthFrame& frame,
                                        const PoseObjectFromCamera& T_oc) const noexcept;
   void Coast(StampNs stamp_ns, Estimate& estimate) const noexcept;
-  [[nodiscard]] PoseCovariance CovarianceOf(const Aligned& aligned,
-                                            StampNs stamp_ns) const noexcept;
+  [[nodiscard]] PoseCovariance CovarianceOf(const Aligned& aligned, const DepthFrame& frame,
+                                            float inverse_depth_std_per_m) const noexcept;
   [[nodiscard]] bool IsForeign(const Vec3& x_o) const noexcept;
   void RememberView(const DepthFrame& frame) noexcept;
   void ForgetContradicted(const DepthFrame& frame, const PoseObjectFromCamera& T_oc,
@@ -147,7 +147,8 @@ class Tracker {
   PoseObjectFromCamera T_oc_previous_;  ///< Of the last registered frame.
 
   Mat6 registered_covariance_ = Mat6::Zero();  ///< Of the last registered pose.
-  Mat6 twist_unobserved_ = Mat6::Zero();       ///< What the surface did not tell of its twist then.
+  float gradient_variance_rad2_ = 0.0F;   ///< Of the model's normals, as the last frames saw it.
+  Mat6 twist_unobserved_ = Mat6::Zero();  ///< What the surface did not tell of its twist then.
   StampNs observed_ns_ = 0;  ///< When the surface last told the pose in all directions.
 
   typename Segmenter<Limits>::Mask object_mask_;

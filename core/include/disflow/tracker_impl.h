@@ -207,6 +207,7 @@ void Tracker<Limits>::StartAt(StampNs stamp_ns, const PoseObjectFromCamera& T_oc
   T_oc_ = T_oc;
   T_oc_previous_ = T_oc;
   registered_covariance_ = variance * Mat6::Identity();
+  gradient_variance_rad2_ = 0.0F;
   twist_unobserved_.setZero();
   twist_filter_.Start(config_.twist, stamp_ns, T_oc.Inverse(), registered_covariance_);
   observed_ns_ = stamp_ns;

@@ -7,6 +7,7 @@
 
 #include "disflow/field/fast_math.h"
 #include "disflow/flow/model_agreement.h"
+#include "disflow/flow/model_drift.h"
 #include "disflow/flow/pose_search.h"
 #include "disflow/flow/pose_uncertainty.h"
 #include "disflow/flow/weak_direction.h"
@@ -69,7 +70,9 @@ Status Tracker<Limits>::Conclude(const DepthFrame& frame, Status observed, const
   TrackingMonitor::Evidence evidence;
   PoseCovariance covariance;
   if (aligned.solved) {
-    covariance = CovarianceOf(aligned, frame.stamp_ns);
+    gradient_variance_rad2_ = RememberGradientVariance(gradient_variance_rad2_,
+                                                       aligned.information.gradient_variance_rad2);
+    covariance = CovarianceOf(aligned, frame, estimate.inverse_depth_std_per_m);
     const ModelAgreement agreement = AgreementWith(frame, aligned.T_oc);
     estimate.conflict = agreement.conflict();
     estimate.visible = agreement.visible();
@@ -201,27 +204,32 @@ void Tracker<Limits>::Coast(StampNs stamp_ns, Estimate& estimate) const noexcept
 /// Covariances of (origin's position, rotation) in camera axes.
 template <CapacityProfile Limits>
 typename Tracker<Limits>::PoseCovariance Tracker<Limits>::CovarianceOf(
-    const Aligned& aligned, StampNs stamp_ns) const noexcept {
+    const Aligned& aligned, const DepthFrame& frame, float inverse_depth_std_per_m) const noexcept {
   constexpr float kLongest_s = 0.6F;  // a turn may then be anything
   const float least_gradient_std = config_.registration.gradient_std_rad;
-  const PoseUncertainty uncertainty = FindPoseUncertainty(aligned.information, least_gradient_std);
+  RegistrationInformation information = aligned.information;
+  information.gradient_variance_rad2 = gradient_variance_rad2_;
+  const PoseUncertainty uncertainty = FindPoseUncertainty(information, least_gradient_std);
   // From frame to frame the model errs alike.
-  RegistrationInformation of_change = aligned.information;
-  of_change.gradient_variance_rad2 = 0.0F;
-  const PoseUncertainty change = FindPoseUncertainty(of_change, least_gradient_std);
+  information.gradient_variance_rad2 = 0.0F;
+  const PoseUncertainty change = FindPoseUncertainty(information, least_gradient_std);
   const Mat3 R_co = aligned.T_oc.rotation().transpose();
   const Vec3 to_origin_m = -aligned.center_m;
   const auto in_camera = [&](const Mat6& covariance_o) {
     return CovarianceAtPoint(covariance_o, R_co, to_origin_m);
   };
-  const float since_s = Seconds(SpanNs(observed_ns_, stamp_ns));
+  const float since_s = Seconds(SpanNs(observed_ns_, frame.stamp_ns));
   const float unobserved_s = std::min(since_s, kLongest_s);
+
+  const float depth_m = registration_.center_c().z();
+  const PlacementScale placement{.pixel_m = depth_m / frame.camera.fx_px,
+                                 .depth_noise_m = inverse_depth_std_per_m * depth_m * depth_m};
 
   PoseCovariance result;
   result.solved = uncertainty.solved;
   result.white = config_.registration.white_noise_share * in_camera(change.covariance);
-  result.reported =
-      in_camera(WithDrift(uncertainty.covariance, aligned.generation, config_.registration));
+  result.reported = in_camera(WithDrift(uncertainty.covariance, aligned.generation, placement,
+                                        LeverOf(information), config_.registration));
   if (!uncertainty.IsComplete()) {
     result.twist_unobserved = in_camera(uncertainty.unobserved);
     const Mat6 turned = unobserved_s * unobserved_s * result.twist_unobserved;

@@ -10,6 +10,7 @@ namespace {
 
 constexpr int kWidth = 12;
 constexpr int kHeight = 10;
+constexpr int kBorder = SamplerConfig{}.border_px;
 
 MaskView ViewOf(const std::vector<std::uint8_t>& mask) {
   return {mask.data(), kWidth, kHeight, kWidth, 0};
@@ -25,16 +26,16 @@ int CountInterior(const MaskView& mask) {
 
 TEST(ObjectInterior, EdgeOfTheImageIsABorderToo) {
   const std::vector<std::uint8_t> all(kWidth * kHeight, 255);
-  EXPECT_EQ(CountInterior(ViewOf(all)), (kWidth - 4) * (kHeight - 4));
+  EXPECT_EQ(CountInterior(ViewOf(all)), (kWidth - 2 * kBorder) * (kHeight - 2 * kBorder));
 }
 
-TEST(ObjectInterior, PixelWithinTwoOfAHole_IsNone) {
+TEST(ObjectInterior, PixelWithinTheBorderOfAHole_IsNone) {
   std::vector<std::uint8_t> mask(kWidth * kHeight, 255);
   mask[5 * kWidth + 6] = 0;
-  EXPECT_FALSE(IsInterior(ViewOf(mask), 4, 5));
-  EXPECT_FALSE(IsInterior(ViewOf(mask), 8, 7));
-  EXPECT_TRUE(IsInterior(ViewOf(mask), 3, 5));
-  EXPECT_TRUE(IsInterior(ViewOf(mask), 9, 5));
+  EXPECT_FALSE(IsInterior(ViewOf(mask), 6 - kBorder, 5));
+  EXPECT_FALSE(IsInterior(ViewOf(mask), 6 + kBorder, 5 + kBorder));
+  EXPECT_TRUE(IsInterior(ViewOf(mask), 5 - kBorder, 5));
+  EXPECT_TRUE(IsInterior(ViewOf(mask), 7 + kBorder, 5));
 }
 
 TEST(ObjectInterior, MaskOfSeveralObjects_CountsThoseOfTheLabel) {

@@ -115,18 +115,23 @@ TEST(PoseUncertainty, NotFiniteOrEmptyInformation_IsNotSolved) {
   EXPECT_FALSE(FindPoseUncertainty(information, kGradientStd_rad).solved);
 }
 
-TEST(Drift, GrowsWithThePiecesAndInAllDirections) {
-  RegistrationConfig config;
-  Mat6 covariance = Mat6::Identity();
-  covariance(1, 1) = 1e-6F;  // known well today; the poses before may have known it badly
-  EXPECT_EQ(WithDrift(covariance, 0.0F, config), covariance);
-  float last = 0.0F;
-  for (const float pieces : {0.5F, 1.0F, 3.0F}) {
-    const Mat6 drifted = WithDrift(covariance, pieces, config);
-    EXPECT_GT(drifted(1, 1), 100.0F * covariance(1, 1));
-    EXPECT_GT(drifted(1, 1), last);
-    last = drifted(1, 1);
+TEST(GradientVariance, RisesAtOnceAndFallsSlowly) {
+  EXPECT_EQ(RememberGradientVariance(0.0F, 0.01F), 0.01F);
+  EXPECT_EQ(RememberGradientVariance(0.01F, 0.02F), 0.02F);
+  float remembered = 0.02F;
+  // One frame that agrees with the model by chance.
+  remembered = RememberGradientVariance(remembered, 0.0F);
+  EXPECT_GT(remembered, 0.018F);
+  for (int frame = 0; frame < 200; ++frame) {
+    const float next = RememberGradientVariance(remembered, 0.001F);
+    EXPECT_LE(next, remembered);
+    remembered = next;
   }
+  EXPECT_NEAR(remembered, 0.001F, 1e-5F);
+}
+
+TEST(GradientVariance, OfAFrameThatTellsNothing_StaysAsItIs) {
+  EXPECT_EQ(RememberGradientVariance(0.01F, std::numeric_limits<float>::quiet_NaN()), 0.01F);
 }
 
 // A point on a circle, turned by a normally distributed angle: its true mean square distance from

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "disflow/config.h"
 #include "disflow/geometry/transform.h"
 #include "disflow/types.h"
 
@@ -37,11 +36,9 @@ struct PoseUncertainty {
 [[nodiscard]] PoseUncertainty FindPoseUncertainty(const RegistrationInformation& information,
                                                   float least_gradient_std) noexcept;
 
-/// Adds the drift of the model: errors of earlier poses are built into the surface that later ones
-/// are registered to, whichever direction they had then.
-/// @param pieces Pieces of surface between the first view and the present one.
-[[nodiscard]] Mat6 WithDrift(const Mat6& covariance, float pieces,
-                             const RegistrationConfig& config) noexcept;
+/// What is remembered of RegistrationInformation::gradient_variance_rad2 after a frame. The model's
+/// normals change slowly; one frame that happens to agree with them makes them no better.
+[[nodiscard]] float RememberGradientVariance(float before_rad2, float by_frame_rad2) noexcept;
 
 /// Covariance of the position that a point which turns by an uncertain angle has beyond its
 /// tangent: towards the axis by theta x displacement / 2, along the tangent as far, and not farther
