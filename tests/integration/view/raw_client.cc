@@ -109,4 +109,9 @@ std::string Frame(unsigned char first_byte, std::string_view payload) {
   return frame.append(payload);
 }
 
+std::string UnmaskedFrame(unsigned char first_byte, std::string_view payload) {
+  const std::string frame = {static_cast<char>(first_byte), static_cast<char>(payload.size())};
+  return frame + std::string(payload);
+}
+
 }  // namespace disflow

@@ -42,5 +42,7 @@ std::string Upgrade(int port, const std::string& headers = "", const std::string
                     const std::string& protocol = "disflow.v1");
 /// A frame as a browser sends it: masked.
 std::string Frame(unsigned char first_byte, std::string_view payload);
+/// As no browser sends it.
+std::string UnmaskedFrame(unsigned char first_byte, std::string_view payload);
 
 }  // namespace disflow

@@ -67,10 +67,14 @@ const char* Explain(Verdict verdict) {
 
 }  // namespace
 
-std::string HeaderOf(lws* wsi, lws_token_indexes header) {
+Header HeaderOf(lws* wsi, lws_token_indexes header) {
   std::array<char, kHeaderBytes> value{};
-  const int size = lws_hdr_copy(wsi, value.data(), static_cast<int>(value.size()), header);
-  return size > 0 ? std::string(value.data(), static_cast<std::size_t>(size)) : std::string();
+  const int room = static_cast<int>(value.size());
+  const int size = lws_hdr_copy(wsi, value.data(), room, header);
+  if (size < 0) return {true, false, {}};
+  if (size > 0) return {true, true, std::string(value.data(), static_cast<std::size_t>(size))};
+  // Of one that was not given there is no first part, of an empty one there is.
+  return {lws_hdr_copy_fragment(wsi, value.data(), room, header, 0) >= 0, true, {}};
 }
 
 std::string CookieOf(lws* wsi, const std::string& name) {

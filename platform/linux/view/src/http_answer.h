@@ -16,12 +16,16 @@
 
 namespace disflow::posix {
 
-/// Of a request, all lines together. One that has more is not answered, so every header fits: one
-/// that did not would pass for one that was not given.
+/// Of a request, all lines together. One that has more is not answered.
 inline constexpr std::size_t kHeaderBytes = 4096;
 
-/// @return Empty if the header was not given.
-[[nodiscard]] std::string HeaderOf(lws* wsi, lws_token_indexes header);
+/// A header as it was given.
+struct Header {
+  bool is_given = false;
+  bool is_whole = true;  ///< false: there was no room for it. It must not pass for one not given.
+  std::string value;
+};
+[[nodiscard]] Header HeaderOf(lws* wsi, lws_token_indexes header);
 [[nodiscard]] std::string CookieOf(lws* wsi, const std::string& name);
 /// @param name With the equals sign.
 [[nodiscard]] std::string QueryOf(lws* wsi, const char* name);

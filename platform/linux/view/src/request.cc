@@ -24,10 +24,10 @@ bool NamesLoopback(std::string_view host) {
 }
 
 /// A page of another site may open a WebSocket here; its browser then says where it is from.
-bool IsSameOrigin(std::string_view origin, std::string_view host) {
-  if (origin.empty()) return true;  // not sent by a browser
-  const std::size_t scheme = origin.find("://");
-  return scheme != std::string_view::npos && origin.substr(scheme + 3) == host;
+bool IsSameOrigin(const std::optional<std::string>& origin, std::string_view host) {
+  if (!origin) return true;  // not sent by a browser
+  const std::size_t scheme = origin->find("://");
+  return scheme != std::string::npos && std::string_view(*origin).substr(scheme + 3) == host;
 }
 
 }  // namespace
@@ -46,7 +46,7 @@ bool SameToken(std::string_view given, std::string_view wanted) noexcept {
 Verdict Judge(const Request& request, const AccessRules& rules) {
   if (!request.is_get) return Verdict::kWrongMethod;
   if (request.has_body) return Verdict::kTooLarge;
-  if (request.host.empty()) return Verdict::kBadRequest;
+  if (!request.is_whole || request.host.empty()) return Verdict::kBadRequest;
   if (rules.is_loopback && !NamesLoopback(request.host)) return Verdict::kForbidden;
   if (!IsSameOrigin(request.origin, request.host)) return Verdict::kForbidden;
   if (rules.token.empty() || SameToken(request.cookie_token, rules.token)) return Verdict::kAllowed;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -10,8 +11,9 @@ namespace disflow::posix {
 struct Request {
   bool is_get = false;
   bool has_body = false;
+  bool is_whole = true;  ///< false: of a header there is a part only.
   std::string host;
-  std::string origin;
+  std::optional<std::string> origin;  ///< Programs that are no browsers give none.
   std::string cookie_token;
   std::string query_token;
 };

@@ -141,8 +141,11 @@ Request WebService::Read(lws* wsi) const {
   request.is_get = lws_hdr_total_length(wsi, WSI_TOKEN_GET_URI) > 0;
   request.has_body = lws_hdr_total_length(wsi, WSI_TOKEN_HTTP_TRANSFER_ENCODING) > 0 ||
                      lws_hdr_total_length(wsi, WSI_TOKEN_HTTP_CONTENT_LENGTH) > 0;
-  request.host = HeaderOf(wsi, WSI_TOKEN_HOST);
-  request.origin = HeaderOf(wsi, WSI_TOKEN_ORIGIN);
+  Header host = HeaderOf(wsi, WSI_TOKEN_HOST);
+  Header origin = HeaderOf(wsi, WSI_TOKEN_ORIGIN);
+  request.is_whole = host.is_whole && origin.is_whole;
+  request.host = std::move(host.value);
+  if (origin.is_given) request.origin = std::move(origin.value);
   request.cookie_token = CookieOf(wsi, cookie_name_);
   request.query_token = QueryOf(wsi, "token=");
   return request;
@@ -181,8 +184,8 @@ int WebService::AnswerUpgrade(lws* wsi) {
   const Verdict verdict = Judge(Read(wsi), {options_.token, options_.address.is_loopback});
   Verdict answer = verdict == Verdict::kRememberToken ? Verdict::kAllowed : verdict;
   if (answer == Verdict::kAllowed) {
-    const bool known = HeaderOf(wsi, WSI_TOKEN_GET_URI) == WebServer::kSocketPath &&
-                       HeaderOf(wsi, WSI_TOKEN_PROTOCOL) == WebServer::kProtocol;
+    const bool known = HeaderOf(wsi, WSI_TOKEN_GET_URI).value == WebServer::kSocketPath &&
+                       HeaderOf(wsi, WSI_TOKEN_PROTOCOL).value == WebServer::kProtocol;
     if (!known) answer = Verdict::kNotFound;
     if (viewers_ >= options_.max_viewers) answer = Verdict::kBusy;
   }
