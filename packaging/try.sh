@@ -11,7 +11,7 @@ die() { printf 'package: %s\n' "$*" >&2; exit 1; }
 
 files="$(dpkg-deb --fsys-tarfile "$package" | tar -t)"
 for file in ./usr/bin/disflow_track ./etc/disflow/track.toml ./lib/systemd/system/disflow-track.service \
-  ./usr/include/disflow/tracker.h ./usr/lib/cmake/disflow/disflow-config.cmake ./usr/share/doc/disflow/deploy.md; do
+  ./usr/include/disflow/tracker.h ./usr/lib/cmake/disflow/disflow-config.cmake ./usr/share/doc/disflow/deploy.md ./usr/share/doc/disflow/disflow.cdx.json; do
   grep -qx "$file" <<<"$files" || die "$file is missing in $package"
 done
 [[ "$(dpkg-deb -f "$package" Depends)" == *libc6* ]] || die "$package has no dependencies"
