@@ -9,23 +9,33 @@ import tarfile
 from kernel import Unavailable
 from newc import Archive
 
-_INIT = """#!/bin/busybox sh
+_BEGIN = """#!/bin/busybox sh
 /bin/busybox --install -s /bin
 export PATH=/bin
 mount -t proc proc /proc
 mount -t sysfs sysfs /sys
 mount -t devtmpfs devtmpfs /dev
-mkdir -p /run /out /tmp /dev/pts
-mount -t devpts devpts /dev/pts
-ip link set lo up
 while read -r module options; do
   insmod "/modules/$module" $options || echo "no $module"
 done </modules/order
 cd /
+"""
+
+_INIT = _BEGIN + """
+mkdir -p /run /out /tmp /dev/pts
+mount -t devpts devpts /dev/pts
+ip link set lo up
 sh /script >/out/log 2>&1
 dmesg >/out/dmesg
 tar -C /out -c . | cat >"$(ls -d /dev/vport*p1)"
 poweroff -f
+"""
+
+# Of a machine with a system of its own. It is in memory: waiting for a disk of QEMU's, the guest would see hours pass.
+_DISK_INIT = _BEGIN + """
+mkdir -p /root
+mount -t ext4 -o loop /disk /root
+exec switch_root /root /sbin/init
 """
 
 
@@ -61,7 +71,6 @@ class Guest:
         shutil.rmtree(folder, ignore_errors=True)
         os.makedirs(folder)
         self._archive.add_file("bin/busybox", kernel.busybox)
-        self._archive.add_bytes("init", _INIT.encode(), 0o755)
         for name in ["proc", "sys", "dev"]:
             self._archive.add_folder(name)
 
@@ -89,7 +98,22 @@ class Guest:
 
         serial: where QEMU connects the board's serial port; without it the kernel's messages go there.
         """
+        self._archive.add_bytes("init", _INIT.encode(), 0o755)
         self._archive.add_bytes("script", script.encode())
+        return self._run(timeout_s, serial, extra)
+
+    def boot_disk(self, disk, timeout_s, serial):
+        """Starts the system in that image of an ext4 file system, which has to write a tar archive to /dev/vport*p1.
+
+        Returns {name: bytes} of what is in it.
+        """
+        self._archive.add_bytes("init", _DISK_INIT.encode(), 0o755)
+        self._modules += ["loop", "crc32c_generic", "ext4"]
+        self._archive.add_file("disk", disk)
+        console = os.path.join(self._folder, "console.txt")
+        return self._run(timeout_s, serial, ["-serial", "file:" + console, "-m", "2048"], console="ttyS1")
+
+    def _run(self, timeout_s, serial, extra, console="hvc0"):
         files = self._kernel.modules(self._modules)
         self._archive.add_bytes("modules/order",
                                 "".join(self._line_of(file) for file in files).encode())
@@ -98,8 +122,8 @@ class Guest:
         initrd = os.path.join(self._folder, "initrd")
         self._archive.write(initrd)
         output = os.path.join(self._folder, "out.tar")
-        console = self._machine.console if serial is None else "hvc0"
         if serial is None:
+            console = self._machine.console
             serial = "file:" + os.path.join(self._folder, "console.txt")
         command = [self._machine.program, *self._machine.arguments,
                    "-kernel", self._kernel.image, "-initrd", initrd,

@@ -13,7 +13,7 @@ import unittest
 
 import setting
 
-_SUITES = ["x86_camera", "faults", "arm_board", "vivid", "libcamera_sensor"]
+_SUITES = ["x86_camera", "faults", "arm_board", "vivid", "libcamera_sensor", "service"]
 
 
 class _Result(unittest.TextTestResult):
