@@ -2,7 +2,7 @@
 # What the programs for Linux can do. All of it is on if the programs are built and off otherwise, unless set by
 # name, e.g. -DDISFLOW_WITH_LIBCAMERA=OFF. (Not option(): the default must follow DISFLOW_BUILD_APPS when that changes.)
 #   DISFLOW_WITH_LIBCAMERA  cameras of libcamera (--sensor libcamera:)
-#   DISFLOW_WITH_DDS        ROS 2 over DDS (--link dds:)
+#   DISFLOW_WITH_DDS        ROS 2 over DDS (--sensor dds:, --link dds:)
 #   DISFLOW_WITH_VIEW       the live view (--view)
 set(disflow_has_programs OFF)
 if(DISFLOW_BUILD_APPS AND CMAKE_SYSTEM_NAME STREQUAL "Linux")
@@ -20,9 +20,9 @@ foreach(feature LIBCAMERA DDS VIEW)
   endif()
 endforeach()
 
-# Recorded sequences and pictures.
+# Recorded sequences and pictures; ROS sends depth as pictures too.
 set(DISFLOW_USES_FILES OFF)
-if((DISFLOW_BUILD_APPS OR DISFLOW_BUILD_FUZZERS) AND NOT CMAKE_SYSTEM_NAME STREQUAL "Generic")
+if((DISFLOW_BUILD_APPS OR DISFLOW_BUILD_FUZZERS OR DISFLOW_WITH_DDS) AND NOT CMAKE_SYSTEM_NAME STREQUAL "Generic")
   set(DISFLOW_USES_FILES ON)
 endif()
 

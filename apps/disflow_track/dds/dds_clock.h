@@ -17,13 +17,19 @@ class DdsClock {
   /// Reads a clock of the system; clock_gettime() but for tests.
   using Read = std::int64_t (*)(clockid_t);
 
-  /// @param live Stamps are of CLOCK_MONOTONIC. Else the first one is taken for now: a replay looks
-  /// as if it began when this was made.
-  explicit DdsClock(bool live, Read read = &ReadSystem) noexcept
+  /// Which clock stamps are of.
+  enum class Stamps {
+    kSequence,   ///< A replay's: it looks as if it began when this was made.
+    kMonotonic,  ///< CLOCK_MONOTONIC.
+    kRos,        ///< ROS's own, which need not be the system's: they are left as they are.
+  };
+
+  explicit DdsClock(Stamps stamps, Read read = &ReadSystem) noexcept
       : read_(read),
-        known_(live),
+        stamps_(stamps),
+        known_(stamps != Stamps::kSequence),
         distance_ns_(Distance()),
-        offset_ns_(live ? distance_ns_ : read_(CLOCK_REALTIME)) {}
+        offset_ns_(FirstOffset()) {}
 
   [[nodiscard]] std::int64_t ToRos(StampNs stamp_ns) noexcept {
     if (!known_) offset_ns_ -= stamp_ns;
@@ -36,7 +42,7 @@ class DdsClock {
   /// For stamps that others read from a clock of theirs, kept in step with the system's: follows
   /// it when it is set. Only if known().
   [[nodiscard]] StampNs FromRosOfOthers(std::int64_t ros_ns) const noexcept {
-    return FromRos(ros_ns) - (Distance() - distance_ns_);
+    return stamps_ == Stamps::kRos ? ros_ns : FromRos(ros_ns) - (Distance() - distance_ns_);
   }
   /// @return false: no stamp has come yet that would tell.
   [[nodiscard]] bool known() const noexcept { return known_; }
@@ -46,6 +52,10 @@ class DdsClock {
     timespec now{};
     (void)clock_gettime(clock, &now);  // cannot fail for these clocks
     return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
+  }
+  [[nodiscard]] std::int64_t FirstOffset() const noexcept {
+    if (stamps_ == Stamps::kRos) return 0;
+    return known_ ? distance_ns_ : read_(CLOCK_REALTIME);
   }
   [[nodiscard]] std::int64_t Distance() const noexcept {
     // Whoever is interrupted between two readings reads again.
@@ -65,6 +75,7 @@ class DdsClock {
   }
 
   Read read_;
+  Stamps stamps_;
   bool known_;
   std::int64_t distance_ns_;  ///< Of the system's two clocks, when this was made.
   std::int64_t offset_ns_;    ///< Of a replay the moment of its beginning, until known_.

@@ -18,21 +18,21 @@ namespace disflow::apps {
 /// The node, its objects and the thread that serves them.
 class DdsPublisher {
  public:
-  DdsPublisher(const std::string& uri, std::span<ObjectChannel* const> channels, bool live,
-               SideInputs& inputs)
-      : uri_(uri), clock_(live) {
-    const DdsAddress address = ParseDdsAddress(uri);
-    posix::RosNode::Options options;
-    options.network = {address.domain, address.interface, address.peers};
-    options.name = address.name;
-    options.before_iron = address.before_iron;
-    RequireLink(node_.Open(options));
-    RequireLink(node_.Advertise("/tf", posix::RosQos::kReliable, transforms_));
-    for (ObjectChannel* const channel : channels) {
-      objects_.emplace_back(address, *channel, signal_, clock_, node_, transforms_, counters_);
+  DdsPublisher(const std::string& uri, std::span<ObjectChannel* const> channels,
+               DdsClock::Stamps stamps, SideInputs& inputs, std::shared_ptr<posix::RosNode> node)
+      : uri_(uri), clock_(stamps), node_(std::move(node)) {
+    DdsAddress address = ParseDdsAddress(uri);
+    if (node_ && node_->options().network.domain == address.domain) {
+      address.name = node_->options().name;  // which the sensor's address may have said
+    } else {
+      OpenNode(address);
     }
-    inputs_.emplace(address, node_, inputs.pose_mailbox(), inputs.mask_mailbox());
-    RequireLink(node_.Announce());
+    RequireLink(node_->Advertise("/tf", posix::RosQos::kReliable, transforms_));
+    for (ObjectChannel* const channel : channels) {
+      objects_.emplace_back(address, *channel, signal_, clock_, *node_, transforms_, counters_);
+    }
+    inputs_.emplace(address, *node_, inputs.pose_mailbox(), inputs.mask_mailbox());
+    RequireLink(node_->Announce());
     thread_ = std::thread([this] { Serve(); });
   }
   DdsPublisher(const DdsPublisher&) = delete;
@@ -61,6 +61,13 @@ class DdsPublisher {
   static constexpr std::chrono::milliseconds kTurn{20};
   static constexpr std::chrono::milliseconds kSettle{250};
 
+  void OpenNode(const DdsAddress& address) {
+    node_ = std::make_shared<posix::RosNode>();
+    RequireLink(node_->Open({.network = {address.domain, address.interface, address.peers},
+                             .name = address.name,
+                             .before_iron = address.before_iron}));
+  }
+
   void RequireLink(const hal::Fault& fault) const {
     if (!fault.ok()) throw Failure(kOutputFailed, "link '" + uri_ + "': " + fault.message);
   }
@@ -68,9 +75,9 @@ class DdsPublisher {
   /// Who was there before needs a moment to find this node, and is to miss nothing: results wait in
   /// their queues meanwhile.
   void AwaitListeners() {
-    for (int i = 0; i < kTurns && !node_.HasListeners(); ++i) std::this_thread::sleep_for(kTurn);
+    for (int i = 0; i < kTurns && !node_->HasListeners(); ++i) std::this_thread::sleep_for(kTurn);
     // They find one topic after the other.
-    if (node_.HasListeners()) std::this_thread::sleep_for(kSettle);
+    if (node_->HasListeners()) std::this_thread::sleep_for(kSettle);
   }
 
   void Serve() {
@@ -82,14 +89,14 @@ class DdsPublisher {
       for (DdsObject& object : objects_) object.Turn(steady_.NowNs());
     }
     for (DdsObject& object : objects_) object.Finish(steady_.NowNs());
-    node_.WaitForAcknowledgments(kFarewell_ns);
+    node_->WaitForAcknowledgments(kFarewell_ns);
   }
 
   std::string uri_;
   NewsSignal signal_;
   DdsClock clock_;
   posix::MonotonicClock steady_;
-  posix::RosNode node_;
+  std::shared_ptr<posix::RosNode> node_;
   DdsObject::TransformPublisher transforms_;
   DdsCounters counters_;
   std::deque<DdsObject> objects_;
@@ -98,9 +105,14 @@ class DdsPublisher {
   std::thread thread_;
 };
 
-DdsOutput::DdsOutput(const std::string& uri, std::span<ObjectChannel* const> objects, bool live,
-                     SideInputs& inputs) {
-  if (!uri.empty()) publisher_ = std::make_unique<DdsPublisher>(uri, objects, live, inputs);
+DdsOutput::DdsOutput(const std::string& uri, std::span<ObjectChannel* const> objects,
+                     const hal::SensorInfo& sensor, SideInputs& inputs,
+                     std::shared_ptr<posix::RosNode> node) {
+  if (uri.empty()) return;
+  const DdsClock::Stamps stamps = sensor.has_monotonic_stamps() ? DdsClock::Stamps::kMonotonic
+                                  : sensor.epoch_stamps         ? DdsClock::Stamps::kRos
+                                                                : DdsClock::Stamps::kSequence;
+  publisher_ = std::make_unique<DdsPublisher>(uri, objects, stamps, inputs, std::move(node));
 }
 
 DdsOutput::~DdsOutput() = default;

@@ -6,8 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "disflow/hal/depth_sensor.h"
 #include "input/side_inputs.h"
 #include "objects/object_channel.h"
+
+namespace disflow::posix {
+class RosNode;
+}
 
 namespace disflow::apps {
 
@@ -18,12 +23,14 @@ class DdsOutput {
  public:
   /// @param uri See ParseDdsAddress(); empty: nothing is sent.
   /// @param objects All outlive this.
-  /// @param live Stamps are of this machine's CLOCK_MONOTONIC.
+  /// @param sensor Where the frames come from: it tells which clock stamps are of.
   /// @param inputs Get what is heard from ROS.
+  /// @param node Of a sensor that is ROS's own; null: none. Used if it is in the same domain.
   /// @throws Failure kWrongUsage for a wrong address or if this program was built without DDS,
   /// kOutputFailed if DDS cannot be started.
-  DdsOutput(const std::string& uri, std::span<ObjectChannel* const> objects, bool live,
-            SideInputs& inputs);
+  DdsOutput(const std::string& uri, std::span<ObjectChannel* const> objects,
+            const hal::SensorInfo& sensor, SideInputs& inputs,
+            std::shared_ptr<posix::RosNode> node);
   DdsOutput(const DdsOutput&) = delete;
   DdsOutput& operator=(const DdsOutput&) = delete;
   ~DdsOutput();

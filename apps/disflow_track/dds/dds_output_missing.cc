@@ -10,7 +10,8 @@ namespace disflow::apps {
 
 class DdsPublisher {};
 
-DdsOutput::DdsOutput(const std::string& uri, std::span<ObjectChannel* const>, bool, SideInputs&) {
+DdsOutput::DdsOutput(const std::string& uri, std::span<ObjectChannel* const>,
+                     const hal::SensorInfo&, SideInputs&, std::shared_ptr<posix::RosNode>) {
   if (uri.empty()) return;
   (void)ParseDdsAddress(uri);
   throw Failure(kWrongUsage, "link '" + uri +

@@ -23,6 +23,7 @@ FrameSource::FrameSource(hal::DepthSensor& sensor, hal::Clock& clock, Rate rate,
     : sensor_(sensor),
       clock_(clock),
       live_(sensor.info().live),
+      monotonic_(sensor.info().has_monotonic_stamps()),
       paced_(rate != Rate::kMax && !live_),
       max_frames_(max_frames > 0 ? max_frames : std::numeric_limits<std::int64_t>::max()),
       console_(console) {}
@@ -58,7 +59,7 @@ FrameSource::Event FrameSource::Next(DepthFrame& frame) {
 }
 
 std::int64_t FrameSource::AgeNs(StampNs stamp_ns) noexcept {
-  return live_ ? clock_.NowNs() - stamp_ns : -1;
+  return monotonic_ ? clock_.NowNs() - stamp_ns : -1;
 }
 
 void FrameSource::Pace(StampNs stamp_ns) noexcept {

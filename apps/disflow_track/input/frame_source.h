@@ -46,6 +46,7 @@ class FrameSource {
   hal::DepthSensor& sensor_;
   hal::Clock& clock_;
   bool live_;
+  bool monotonic_;  ///< Stamps are of clock_.
   bool paced_;
   std::int64_t max_frames_;
   Console& console_;

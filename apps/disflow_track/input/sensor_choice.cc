@@ -6,6 +6,7 @@
 #include "disflow/posix/camera/v4l2_sensor.h"
 #include "program/exit_status.h"
 #include "settings/camera_file.h"
+#include "settings/dds_address.h"
 #ifdef DISFLOW_HAS_LIBCAMERA
 #include "disflow/posix/camera/libcamera_sensor.h"
 #endif
@@ -39,10 +40,13 @@ Fault OpenCamera(const std::string& uri, host::Sensor& sensor) {
 
 }  // namespace
 
-void OpenSensor(const std::string& uri, host::Sensor& sensor) {
+std::shared_ptr<posix::RosNode> OpenSensor(const Options& options, host::Sensor& sensor,
+                                           Console& console) {
+  const std::string& uri = options.sensor;
+  if (IsDdsAddress(uri)) return OpenRosSensor(options, sensor, console);
   const bool is_camera = posix::IsCameraAddress(uri);
   const Fault fault = is_camera ? OpenCamera(uri, sensor) : host::OpenSensor(uri, sensor);
-  if (fault.ok()) return;
+  if (fault.ok()) return nullptr;
   // A camera's intrinsics stand in the command line or a file of the user's.
   const bool is_usage = fault.status == Status::kInvalidUri ||
                         (is_camera && fault.status == Status::kInvalidIntrinsics);

@@ -13,7 +13,8 @@ constexpr std::int64_t kMaxLead_ns = 50'000'000;
 /// Some nodes of ROS date a transform to when it ceases to hold.
 constexpr std::int64_t kMaxTfLead_ns = 1'000'000'000;
 
-hal::CameraPoseHistory::Settings PoseSettings(const CameraPoseOptions& options, bool live) {
+/// @param on_time What arrives can be compared with the time of now.
+hal::CameraPoseHistory::Settings PoseSettings(const CameraPoseOptions& options, bool on_time) {
   // Optical axes (right, down, forward) in a body's (forward, right, down).
   std::vector<double> numbers = {0.0, 0.0, 0.0, 0.5, 0.5, 0.5, 0.5};
   if (!options.camera_in_body.empty()) numbers = options.camera_in_body;
@@ -23,7 +24,7 @@ hal::CameraPoseHistory::Settings PoseSettings(const CameraPoseOptions& options, 
       q, Mat<double, 3>(numbers[0], numbers[1], numbers[2]));
   hal::CameraPoseHistory::Settings settings{.T_bc = T_bc.Cast<float>()};
   // Nobody knows where the carrier will be; but what is sent to a replay may come at any pace.
-  if (live) settings.max_lead_ns = kMaxLead_ns;
+  if (on_time) settings.max_lead_ns = kMaxLead_ns;
   return settings;
 }
 
@@ -47,7 +48,7 @@ SideInputs::SideInputs(const Options& options, const hal::SensorInfo& sensor) {
                                    std::llround(options.mask_max_age_s * 1e9));
   }
   if (options.camera_pose.system_id != 0) {
-    poses_.emplace(PoseSettings(options.camera_pose, sensor.live));
+    poses_.emplace(PoseSettings(options.camera_pose, sensor.has_monotonic_stamps()));
   }
   if (options.dds_link.empty()) return;
   const DdsAddress address = ParseDdsAddress(options.dds_link);

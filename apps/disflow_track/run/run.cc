@@ -66,13 +66,13 @@ class TrackingRun {
   explicit TrackingRun(const Options& options)
       : options_(options),
         console_(!options.headless),
-        opener_(options.sensor, sensor_),
+        ros_(OpenSensor(options, sensor_, console_)),
         info_(sensor_.get()->info()),
         inputs_(options, info_),
         outputs_(options, console_, inputs_.camera_poses()),
         source_(*sensor_.get(), clock_, options.rate, options.frames, console_),
         objects_(MakeObjects(options)),
-        dds_(options.dds_link, ChannelsOf(objects_), info_.live, inputs_),
+        dds_(options.dds_link, ChannelsOf(objects_), info_, inputs_, ros_),
         view_(options.view, ChannelsOf(objects_), console_),
         results_(options.objects.size()),
         reports_(options.objects.size()) {}
@@ -100,11 +100,6 @@ class TrackingRun {
   }
 
  private:
-  /// So that opening has its place among the members.
-  struct Opener {
-    Opener(const std::string& uri, host::Sensor& sensor) { OpenSensor(uri, sensor); }
-  };
-
   void Track() {
     const bool live = info_.live || options_.rate == Rate::kLive;
     if (live) console_.WriteInBackground();
@@ -153,9 +148,10 @@ class TrackingRun {
     outputs_.KeepAlive(now_ns);
   }
 
-  /// Now, on the clock of the frames' stamps. That of a replay goes on from frame to frame.
+  /// Now, on the clock of the frames' stamps. That of a replay or another machine goes on from
+  /// frame to frame.
   [[nodiscard]] std::int64_t CaptureNowNs(std::int64_t now_ns) const noexcept {
-    return info_.live ? now_ns : frame_.stamp_ns;
+    return info_.has_monotonic_stamps() ? now_ns : frame_.stamp_ns;
   }
 
   void Take(const FrameFeed::Turn& turn, WorkerPool& pool) {
@@ -250,7 +246,7 @@ class TrackingRun {
   Console console_;
   MonotonicClock clock_;
   host::Sensor sensor_;
-  Opener opener_;
+  std::shared_ptr<posix::RosNode> ros_;  ///< Of a sensor that is ROS's own; else null.
   hal::SensorInfo info_;
   SideInputs inputs_;
   Outputs outputs_;

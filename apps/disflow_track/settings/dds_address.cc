@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::string_view kScheme = "dds:";
 constexpr std::uint32_t kMaxDomain = 232;  // beyond, DDS runs out of ports
+constexpr std::uint32_t kMaxWait_s = 86'400;
 constexpr std::size_t kMaxText = 128;
 constexpr std::size_t kMaxPeers = 16;
 
@@ -28,43 +29,69 @@ bool IsText(std::string_view text, std::string_view more) noexcept {
          });
 }
 
+/// Who says it.
+enum class Side : std::uint8_t { kBoth, kLink, kSensor };
+
 /// One `key=value` at a time.
 class Reader {
  public:
-  explicit Reader(const std::string& uri) : uri_(uri) {}
+  Reader(const std::string& uri, Side side) : uri_(uri), side_(side) {}
 
-  [[nodiscard]] DdsAddress Read() {
+  [[nodiscard]] DdsAddress ReadLink() {
+    ReadItems("dds:domain=0");
+    static_cast<DdsNodeAddress&>(link_) = node_;
+    return link_;
+  }
+  [[nodiscard]] DdsSensorAddress ReadSensor() {
+    constexpr const char* kExample = "dds:domain=0&depth=/camera/depth/image_rect_raw";
+    ReadItems(kExample);
+    if (sensor_.depth_topic.empty()) {
+      Refuse(std::string("depth= is missing; write ") + kExample);
+    }
+    static_cast<DdsNodeAddress&>(sensor_) = node_;
+    return sensor_;
+  }
+
+ private:
+  void ReadItems(const char* example) {
     std::string_view rest = std::string_view(uri_).substr(kScheme.size());
-    if (rest.empty()) Refuse("write dds:domain=0");
+    if (rest.empty()) Refuse(std::string("write ") + example);
     while (!rest.empty()) {
       const std::string_view item = rest.substr(0, rest.find('&'));
       rest.remove_prefix(std::min(item.size() + 1, rest.size()));
       ReadItem(item);
     }
-    return address_;
   }
 
- private:
   void ReadItem(std::string_view item) {
     const std::size_t equals = item.find('=');
     if (equals == std::string_view::npos) Refuse(Shown(item) + " is not OPTION=VALUE");
     const std::string_view key = item.substr(0, equals);
     for (std::size_t i = 0; i < kOptions.size(); ++i) {
-      if (kOptions[i].key != key) continue;
+      if (kOptions[i].key != key || !IsOf(kOptions[i].side)) continue;
       if (seen_[i]) Refuse(std::string(key) + " is given twice");
       seen_[i] = true;
       (this->*kOptions[i].read)(item.substr(equals + 1));
       return;
     }
-    Refuse("unknown option " + Shown(key) +
-           "; there are domain, name, interface, peer, camera, world, mask and ros");
+    std::string known;
+    for (const Option& option : kOptions) {
+      if (!IsOf(option.side)) continue;
+      known.append(known.empty() ? "" : ", ").append(option.key);
+    }
+    Refuse("unknown option " + Shown(key) + "; there are " + known);
   }
+  [[nodiscard]] bool IsOf(Side side) const noexcept { return side == Side::kBoth || side == side_; }
 
-  void ReadDomain(std::string_view value) {
+  void ReadDomain(std::string_view value) { ReadNumber("domain", value, kMaxDomain, node_.domain); }
+  void ReadWait(std::string_view value) { ReadNumber("wait", value, kMaxWait_s, sensor_.wait_s); }
+  void ReadNumber(const char* key, std::string_view value, std::uint32_t max,
+                  std::uint32_t& number) {
     const char* const end = value.data() + value.size();
-    const auto [stop, error] = std::from_chars(value.data(), end, address_.domain);
-    if (error != std::errc{} || stop != end || address_.domain > kMaxDomain) {
-      Refuse("domain=" + Shown(value) + " is not a number from 0 to 232");
+    const auto [stop, error] = std::from_chars(value.data(), end, number);
+    if (error != std::errc{} || stop != end || number > max) {
+      Refuse(std::string(key) + "=" + Shown(value) + " is not a number from 0 to " +
+             std::to_string(max));
     }
   }
   void ReadName(std::string_view value) {
@@ -72,11 +99,11 @@ class Reader {
       Refuse("name=" + Shown(value) +
              " is no ROS name: letters, digits and underscores, not a digit first");
     }
-    address_.name = value;
+    node_.name = value;
   }
   void ReadInterface(std::string_view value) {
     if (!IsText(value, "._-:")) Refuse("interface=" + Shown(value) + " is no network interface");
-    address_.interface = value;
+    node_.interface = value;
   }
   void ReadPeers(std::string_view value) {
     for (bool more = true; more;) {
@@ -84,18 +111,33 @@ class Reader {
       more = comma != std::string_view::npos;
       const std::string_view peer = value.substr(0, comma);
       if (!IsText(peer, "._-:[]")) Refuse("peer=" + Shown(peer) + " is no host");
-      if (address_.peers.size() == kMaxPeers) Refuse("peer= names more than 16 hosts");
-      address_.peers.emplace_back(peer);
+      if (node_.peers.size() == kMaxPeers) Refuse("peer= names more than 16 hosts");
+      node_.peers.emplace_back(peer);
       value.remove_prefix(more ? comma + 1 : value.size());
     }
   }
-  void ReadCamera(std::string_view value) { ReadFrame("camera", value, address_.camera_frame); }
-  void ReadWorld(std::string_view value) { ReadFrame("world", value, address_.world_frame); }
+  void ReadCamera(std::string_view value) { ReadFrame("camera", value, link_.camera_frame); }
+  void ReadWorld(std::string_view value) { ReadFrame("world", value, link_.world_frame); }
   void ReadMask(std::string_view value) {
+    ReadTopic("mask", value, "/segmentation/mask", link_.mask_topic);
+  }
+  void ReadDepth(std::string_view value) {
+    ReadTopic("depth", value, "/camera/depth/image_rect_raw", sensor_.depth_topic);
+  }
+  void ReadInfo(std::string_view value) {
+    ReadTopic("info", value, "/camera/depth/camera_info", sensor_.info_topic);
+  }
+  void ReadTopic(const char* key, std::string_view value, const char* example, std::string& topic) {
     if (!IsText(value, "_/") || value.front() != '/' || value.back() == '/') {
-      Refuse("mask=" + Shown(value) + " is no topic, e.g. /segmentation/mask");
+      Refuse(std::string(key) + "=" + Shown(value) + " is no topic, e.g. " + example);
     }
-    address_.mask_topic = value;
+    topic = value;
+  }
+  void ReadRectified(std::string_view value) {
+    if (value != "yes" && value != "no") {
+      Refuse("rectified=" + Shown(value) + " is neither yes nor no");
+    }
+    sensor_.rectified = value == "yes";
   }
   void ReadFrame(const char* key, std::string_view value, std::string& frame) {
     if (!IsText(value, "_-/.") || value.front() == '/') {
@@ -107,7 +149,7 @@ class Reader {
     if (value != "humble" && value != "iron") {
       Refuse("ros=" + Shown(value) + " is neither humble (and older) nor iron (and newer)");
     }
-    address_.before_iron = value == "humble";
+    node_.before_iron = value == "humble";
   }
 
   /// What a terminal can show of text from outside.
@@ -124,26 +166,70 @@ class Reader {
 
   struct Option {
     std::string_view key;
+    Side side;
     void (Reader::*read)(std::string_view value);
   };
-  static constexpr std::array<Option, 8> kOptions = {{{"domain", &Reader::ReadDomain},
-                                                      {"name", &Reader::ReadName},
-                                                      {"interface", &Reader::ReadInterface},
-                                                      {"peer", &Reader::ReadPeers},
-                                                      {"camera", &Reader::ReadCamera},
-                                                      {"world", &Reader::ReadWorld},
-                                                      {"mask", &Reader::ReadMask},
-                                                      {"ros", &Reader::ReadRos}}};
+  static constexpr std::array<Option, 12> kOptions = {{
+      {"domain", Side::kBoth, &Reader::ReadDomain},
+      {"name", Side::kBoth, &Reader::ReadName},
+      {"interface", Side::kBoth, &Reader::ReadInterface},
+      {"peer", Side::kBoth, &Reader::ReadPeers},
+      {"ros", Side::kBoth, &Reader::ReadRos},
+      {"camera", Side::kLink, &Reader::ReadCamera},
+      {"world", Side::kLink, &Reader::ReadWorld},
+      {"mask", Side::kLink, &Reader::ReadMask},
+      {"depth", Side::kSensor, &Reader::ReadDepth},
+      {"info", Side::kSensor, &Reader::ReadInfo},
+      {"rectified", Side::kSensor, &Reader::ReadRectified},
+      {"wait", Side::kSensor, &Reader::ReadWait},
+  }};
 
   const std::string& uri_;
-  DdsAddress address_;
+  Side side_;
+  DdsNodeAddress node_;
+  DdsAddress link_;
+  DdsSensorAddress sensor_;
   std::array<bool, kOptions.size()> seen_{};
 };
 
 }  // namespace
 
+const char* const kDdsSensorHelp =
+    "  dds:domain=N&depth=TOPIC\n"
+    "               depth images of ROS 2 (docs/ros2.md): sensor_msgs/Image, or CompressedImage if "
+    "TOPIC ends in\n"
+    "               /compressedDepth. Options: info=TOPIC (CameraInfo; camera_info beside the "
+    "images), rectified=yes|no\n"
+    "               (by the topic's name), wait=30 (seconds for the first image), and name, "
+    "interface, peer, ros as of\n"
+    "               a link\n";
+
 bool IsDdsAddress(std::string_view uri) noexcept { return uri.starts_with(kScheme); }
 
-DdsAddress ParseDdsAddress(const std::string& uri) { return Reader(uri).Read(); }
+DdsAddress ParseDdsAddress(const std::string& uri) { return Reader(uri, Side::kLink).ReadLink(); }
+
+DdsSensorAddress ParseDdsSensorAddress(const std::string& uri) {
+  return Reader(uri, Side::kSensor).ReadSensor();
+}
+
+DdsNodeAddress SensorNode(const DdsSensorAddress& sensor, const std::string& link_uri) {
+  const DdsAddress link = link_uri.empty() ? DdsAddress{} : ParseDdsAddress(link_uri);
+  if (link_uri.empty() || link.domain != sensor.domain) return sensor;
+  DdsNodeAddress node = link;
+  const DdsNodeAddress nothing;
+  const auto unite = [&](const char* key, auto DdsNodeAddress::*value) {
+    if (sensor.*value == nothing.*value) return;
+    if (link.*value != nothing.*value && link.*value != sensor.*value) {
+      Refuse("--sensor dds: and --link dds: are one node in a domain: ",
+             std::string(key) + "= of both must be the same");
+    }
+    node.*value = sensor.*value;
+  };
+  unite("name", &DdsNodeAddress::name);
+  unite("interface", &DdsNodeAddress::interface);
+  unite("peer", &DdsNodeAddress::peers);
+  unite("ros", &DdsNodeAddress::before_iron);
+  return node;
+}
 
 }  // namespace disflow::apps

@@ -264,8 +264,8 @@ Options ParseCommandLine(int argc, char** argv, bool& exit_now) {
   Options options;
   SettingSources settings;
   CLI::App app(kDescription, "disflow_track");
-  app.footer(std::string("Sensors:\n") + posix::kCameraAddressHelp + host::SensorHelp() +
-             kLinksAndStatus);
+  app.footer(std::string("Sensors:\n") + posix::kCameraAddressHelp + kDdsSensorHelp +
+             host::SensorHelp() + kLinksAndStatus);
   app.add_flag("--version", options.print_version, "Show version and what is built in, and end");
   AddInput(app, options, settings);
   AddObject(app, options, settings);
@@ -286,6 +286,9 @@ Options ParseCommandLine(int argc, char** argv, bool& exit_now) {
   ReadSettings(app, settings, options);
   CheckResolution(options);
   SplitLinks(options);
+  if (IsDdsAddress(options.sensor)) {
+    (void)SensorNode(ParseDdsSensorAddress(options.sensor), options.dds_link);
+  }
   CheckCameraPose(options);
   CheckMaskStream(options);
   if (options.sensor.empty() && !options.list_sensors && !options.print_config &&

@@ -26,6 +26,12 @@ struct SensorInfo {
   StampPoint stamp_point = StampPoint::kUnknown;  ///< May be known only after the first frame.
   /// A frame's views stay valid until Next() has been called this many times more.
   int held_frames = 1;
+  /// Stamps are nanoseconds since 1970 by the clock of whoever sends the frames, who may play a
+  /// recording; else those of a live sensor are of this machine's CLOCK_MONOTONIC.
+  bool epoch_stamps = false;
+
+  /// @return Whether a stamp's age can be told by this machine's CLOCK_MONOTONIC.
+  [[nodiscard]] bool has_monotonic_stamps() const noexcept { return live && !epoch_stamps; }
 };
 
 /// Frames that did and did not reach the tracker, counted since the sensor was constructed;

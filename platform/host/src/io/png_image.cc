@@ -116,21 +116,42 @@ class Reader {
 };
 
 /// Before anything is allocated for the pixels.
-hal::Fault CheckSize(const fs::path& path, const Reader& reader) {
+hal::Fault CheckSize(const char* name, const Reader& reader, std::uintmax_t bytes) {
   const std::uint64_t pixels = std::uint64_t{reader.width()} * reader.height();
   if (pixels > kMaxImagePixels) {
     return hal::MakeFault(Status::kImageTooLarge,
-                          "%s: its header says %ux%u pixels; %ju can be read", path.c_str(),
-                          reader.width(), reader.height(), std::uintmax_t{kMaxImagePixels});
+                          "%s: its header says %ux%u pixels; %ju can be read", name, reader.width(),
+                          reader.height(), std::uintmax_t{kMaxImagePixels});
   }
   // Deflate cannot say more than 1032 bytes with one.
   constexpr std::uint64_t kPixelsPerByte = 8 * 1032;  // of one bit each
-  std::error_code error;
-  const std::uintmax_t bytes = fs::file_size(path, error);
-  if (error || pixels / kPixelsPerByte <= bytes) return {};
+  if (pixels / kPixelsPerByte <= bytes) return {};
   return hal::MakeFault(Status::kTruncated,
-                        "%s: is %ju bytes long, too short for the %ux%u pixels of its header",
-                        path.c_str(), bytes, reader.width(), reader.height());
+                        "%s: is %ju bytes long, too short for the %ux%u pixels of its header", name,
+                        bytes, reader.width(), reader.height());
+}
+
+/// @param bytes Length of the file.
+hal::Fault Read(std::FILE* file, const char* name, std::uintmax_t bytes, GrayImage& image) {
+  Reader reader;
+  if (const Status status = reader.ReadHeader(file); status != Status::kOk) {
+    if (status == Status::kImageTooLarge) {
+      return hal::MakeFault(status, "%s: its header says more than %u pixels a side", name,
+                            kMaxImageSide_px);
+    }
+    const char* reason = status == Status::kUnsupported
+                             ? "is not a plain grey PNG; 8 or 16 bit grey is needed"
+                             : reader.error();
+    return hal::MakeFault(status, "%s: %s", name, reason);
+  }
+  if (const hal::Fault fault = CheckSize(name, reader, bytes); !fault.ok()) return fault;
+  image.width_px = static_cast<int>(reader.width());
+  image.height_px = static_cast<int>(reader.height());
+  image.pixels.resize(std::size_t{reader.width()} * reader.height());
+  if (const Status status = reader.ReadPixels(image.pixels.data()); status != Status::kOk) {
+    return hal::MakeFault(status, "%s: ends too early or is damaged: %s", name, reader.error());
+  }
+  return {};
 }
 
 /// Rows of an image to be written.
@@ -193,26 +214,18 @@ hal::Fault WritePng(const fs::path& path, const Raster& raster) {
 hal::Fault ReadGrayPng(const fs::path& path, GrayImage& image) {
   const FilePointer file(std::fopen(path.c_str(), "rb"));
   if (file == nullptr) return OpenFault(path);
-  Reader reader;
-  if (const Status status = reader.ReadHeader(file.get()); status != Status::kOk) {
-    if (status == Status::kImageTooLarge) {
-      return hal::MakeFault(status, "%s: its header says more than %u pixels a side", path.c_str(),
-                            kMaxImageSide_px);
-    }
-    const char* reason = status == Status::kUnsupported
-                             ? "is not a plain grey PNG; 8 or 16 bit grey is needed"
-                             : reader.error();
-    return hal::MakeFault(status, "%s: %s", path.c_str(), reason);
-  }
-  if (const hal::Fault fault = CheckSize(path, reader); !fault.ok()) return fault;
-  image.width_px = static_cast<int>(reader.width());
-  image.height_px = static_cast<int>(reader.height());
-  image.pixels.resize(std::size_t{reader.width()} * reader.height());
-  if (const Status status = reader.ReadPixels(image.pixels.data()); status != Status::kOk) {
-    return hal::MakeFault(status, "%s: ends too early or is damaged: %s", path.c_str(),
-                          reader.error());
-  }
-  return {};
+  std::error_code error;
+  const std::uintmax_t bytes = fs::file_size(path, error);
+  // Of what has no length, such as a pipe, none is expected.
+  return Read(file.get(), path.c_str(), error ? UINTMAX_MAX : bytes, image);
+}
+
+hal::Fault ReadGrayPng(std::span<const std::uint8_t> png, const char* name, GrayImage& image) {
+  if (png.empty()) return hal::MakeFault(Status::kTruncated, "%s: is empty", name);
+  // Only read: the mode says so.
+  const FilePointer file(::fmemopen(const_cast<std::uint8_t*>(png.data()), png.size(), "rb"));
+  if (file == nullptr) return hal::MakeFault(Status::kIoError, "%s: out of memory", name);
+  return Read(file.get(), name, png.size(), image);
 }
 
 hal::Fault WriteGray8Png(const fs::path& file, const std::uint8_t* rows, int width_px,

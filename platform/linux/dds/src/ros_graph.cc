@@ -51,14 +51,17 @@ std::vector<Gid> GidsOf(std::span<const dds_entity_t> entities) {
   return gids;
 }
 
-template <class Messages>
-dds_return_t Write(dds_entity_t participant, const GraphEntry& entry) {
-  const dds_topic_descriptor_t descriptor = Messages::Descriptor();
+/// @return The writer, or what went wrong.
+dds_entity_t MakeWriter(dds_entity_t participant, const dds_topic_descriptor_t& descriptor) {
   const dds_entity_t topic =
       dds_create_topic(participant, &descriptor, "ros_discovery_info", nullptr, nullptr);
   if (topic < 0) return topic;
-  const dds_entity_t writer =
-      dds_create_writer(participant, topic, MakeQos(RosQos::kLatched, {}).get(), nullptr);
+  return dds_create_writer(participant, topic, MakeQos(RosQos::kLatched, {}).get(), nullptr);
+}
+
+template <class Messages>
+dds_return_t Write(dds_entity_t participant, const GraphEntry& entry, dds_entity_t& writer) {
+  if (writer <= 0) writer = MakeWriter(participant, Messages::Descriptor());
   if (writer < 0) return writer;
   auto readers = GidsOf<typename Messages::Gid>(entry.readers);
   auto writers = GidsOf<typename Messages::Gid>(entry.writers);
@@ -77,9 +80,10 @@ dds_return_t Write(dds_entity_t participant, const GraphEntry& entry) {
 
 }  // namespace
 
-hal::Fault AnnounceInGraph(dds_entity_t participant, const GraphEntry& entry, bool before_iron) {
-  const dds_return_t result =
-      before_iron ? Write<BeforeIron>(participant, entry) : Write<Current>(participant, entry);
+hal::Fault AnnounceInGraph(dds_entity_t participant, const GraphEntry& entry, bool before_iron,
+                           dds_entity_t& writer) {
+  const dds_return_t result = before_iron ? Write<BeforeIron>(participant, entry, writer)
+                                          : Write<Current>(participant, entry, writer);
   if (result >= 0) return {};
   return hal::MakeFault(Status::kIoError, "dds: the node cannot be announced: %s",
                         dds_strretcode(result));

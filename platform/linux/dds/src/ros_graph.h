@@ -19,7 +19,8 @@ struct GraphEntry {
 
 /// Writes the entry to `ros_discovery_info`, where it stays for those who come later.
 /// @param before_iron With ids of 24 bytes, as ROS 2 Humble and older have them.
+/// @param writer 0 the first time; then what was made the first time.
 [[nodiscard]] hal::Fault AnnounceInGraph(dds_entity_t participant, const GraphEntry& entry,
-                                         bool before_iron);
+                                         bool before_iron, dds_entity_t& writer);
 
 }  // namespace disflow::posix

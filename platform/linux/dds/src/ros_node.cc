@@ -29,6 +29,21 @@ void AwaitReplyReaders(dds_entity_t requests, dds_entity_t replies) noexcept {
   }
 }
 
+hal::Fault RosWait::Open(dds_entity_t participant, std::initializer_list<dds_entity_t> readers) {
+  waitset_ = dds_create_waitset(participant);
+  for (const dds_entity_t reader : readers) {
+    const dds_entity_t condition = dds_create_readcondition(reader, DDS_ANY_STATE);
+    const dds_return_t result =
+        condition < 0 ? condition : dds_waitset_attach(waitset_, condition, 0);
+    if (result < 0) return EntityFault("waiting", "what comes in", result);
+  }
+  return {};
+}
+
+void RosWait::For(std::int64_t timeout_ns) const noexcept {
+  (void)dds_waitset_wait(waitset_, nullptr, 0, timeout_ns);
+}
+
 hal::Fault RosNode::Open(const Options& options) {
   options_ = options;
   const hal::Fault fault = OpenDomain(options.network, domain_);
@@ -74,7 +89,8 @@ std::string RosNode::ParticipantId() const {
 }
 
 hal::Fault RosNode::Announce() {
-  return AnnounceInGraph(participant_, {options_.name, readers_, writers_}, options_.before_iron);
+  return AnnounceInGraph(participant_, {options_.name, readers_, writers_}, options_.before_iron,
+                         graph_writer_);
 }
 
 bool RosNode::HasListeners() const noexcept {

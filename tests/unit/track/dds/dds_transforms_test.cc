@@ -104,7 +104,7 @@ TEST(DdsClock, SystemsClockThatIsSet_IsFollowedForWhatOthersSayAlone) {
   for (const bool live : {true, false}) {
     realtime_ns = kStart_ns;
     monotonic_ns = 5'000 * kMs;
-    DdsClock clock(live, &ReadFake);
+    DdsClock clock(live ? DdsClock::Stamps::kMonotonic : DdsClock::Stamps::kSequence, &ReadFake);
     const StampNs first_ns = live ? monotonic_ns : StampNs{0};
     const std::int64_t said_ns = clock.ToRos(first_ns);
     EXPECT_EQ(said_ns, kStart_ns);
@@ -116,6 +116,18 @@ TEST(DdsClock, SystemsClockThatIsSet_IsFollowedForWhatOthersSayAlone) {
       EXPECT_EQ(clock.FromRos(said_ns), first_ns);
       EXPECT_EQ(clock.ToRos(first_ns), said_ns);
     }
+  }
+}
+
+TEST(DdsClock, StampsThatAreRosTime_StayAsTheyAreWhateverTheSystemsClockSays) {
+  DdsClock clock(DdsClock::Stamps::kRos, &ReadFake);
+  EXPECT_TRUE(clock.known());
+  for (const std::int64_t set_ns : {0 * kMs, 100'000 * kMs, -3'600'000 * kMs}) {
+    realtime_ns = kStart_ns + set_ns;
+    constexpr std::int64_t kStamp_ns = 1'234'567'891'234'567'891;
+    EXPECT_EQ(clock.ToRos(kStamp_ns), kStamp_ns);
+    EXPECT_EQ(clock.FromRos(kStamp_ns), kStamp_ns);
+    EXPECT_EQ(clock.FromRosOfOthers(kStamp_ns), kStamp_ns);
   }
 }
 

@@ -22,6 +22,10 @@ struct GrayImage {
 /// @param image Reused, so that reading a sequence does not allocate again; undefined on error.
 /// @return kNotFound, kTruncated, kCorrupt, kUnsupported or kIoError, naming the file.
 [[nodiscard]] hal::Fault ReadGrayPng(const std::filesystem::path& file, GrayImage& image);
+/// The same for the bytes of such a file.
+/// @param name What the fault calls it.
+[[nodiscard]] hal::Fault ReadGrayPng(std::span<const std::uint8_t> png, const char* name,
+                                     GrayImage& image);
 
 /// @param rows 8-bit pixels, `stride_bytes` from row to row.
 [[nodiscard]] hal::Fault WriteGray8Png(const std::filesystem::path& file, const std::uint8_t* rows,

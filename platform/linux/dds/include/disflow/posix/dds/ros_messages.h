@@ -4,6 +4,7 @@
 #include <ros2.h>
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 /// @file
@@ -32,6 +33,8 @@ using DiagnosticArray = diagnostic_msgs_msg_dds__DiagnosticArray_;
 using PointField = sensor_msgs_msg_dds__PointField_;
 using PointCloud2 = sensor_msgs_msg_dds__PointCloud2_;
 using Image = sensor_msgs_msg_dds__Image_;
+using CompressedImage = sensor_msgs_msg_dds__CompressedImage_;
+using CameraInfo = sensor_msgs_msg_dds__CameraInfo_;
 using ColorRGBA = std_msgs_msg_dds__ColorRGBA_;
 using Marker = visualization_msgs_msg_dds__Marker_;
 using TriggerRequest = std_srvs_srv_dds__Trigger_Request_;
@@ -53,6 +56,8 @@ template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::TFMessage>() 
 template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::DiagnosticArray>() noexcept { return diagnostic_msgs_msg_dds__DiagnosticArray__desc; }
 template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::PointCloud2>() noexcept { return sensor_msgs_msg_dds__PointCloud2__desc; }
 template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::Image>() noexcept { return sensor_msgs_msg_dds__Image__desc; }
+template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::CompressedImage>() noexcept { return sensor_msgs_msg_dds__CompressedImage__desc; }
+template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::CameraInfo>() noexcept { return sensor_msgs_msg_dds__CameraInfo__desc; }
 template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::Marker>() noexcept { return visualization_msgs_msg_dds__Marker__desc; }
 template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::TriggerRequest>() noexcept { return std_srvs_srv_dds__Trigger_Request__desc; }
 template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::TriggerResponse>() noexcept { return std_srvs_srv_dds__Trigger_Response__desc; }
@@ -64,6 +69,11 @@ template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::QueryResponse
 /// both directions.
 [[nodiscard]] inline char* Lend(const std::string& text) noexcept {
   return const_cast<char*>(text.c_str());
+}
+
+/// A text of a message that was received; a writer may have left it out.
+[[nodiscard]] inline std::string_view TextOf(const char* text) noexcept {
+  return text == nullptr ? std::string_view() : std::string_view(text);
 }
 
 /// The elements as a message's sequence points to them.

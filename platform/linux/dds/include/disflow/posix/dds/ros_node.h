@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -47,6 +49,17 @@ class RosPublisher {
   dds_entity_t writer_ = 0;
 };
 
+/// A message that is received into the same memory again and again.
+template <class Message>
+struct RosSample {
+  RosSample() = default;
+  RosSample(const RosSample&) = delete;
+  RosSample& operator=(const RosSample&) = delete;
+  ~RosSample() { dds_sample_free(&message, &DescriptorOf<Message>(), DDS_FREE_CONTENTS); }
+
+  Message message{};
+};
+
 /// Reads one topic. Valid as long as its node.
 template <class Message>
 class RosSubscription {
@@ -67,8 +80,45 @@ class RosSubscription {
     if (count > 0) (void)dds_return_loan(reader_, messages.data(), count);
   }
 
+  /// Takes the oldest message that has come in; never waits. Sequences that own their memory grow
+  /// as the message demands, those that do not are cut to what they have.
+  /// @return false if none has.
+  [[nodiscard]] bool TakeOne(RosSample<Message>& sample) noexcept {
+    void* target = &sample.message;
+    dds_sample_info_t info;
+    while (dds_take(reader_, &target, &info, 1, 1) > 0) {
+      if (info.valid_data) return true;  // else it says that a writer went
+    }
+    return false;
+  }
+
+  /// Writers that are there now.
+  [[nodiscard]] std::uint32_t writers() const noexcept {
+    dds_subscription_matched_status_t status{};
+    (void)dds_get_subscription_matched_status(reader_, &status);
+    return status.current_count;
+  }
+  /// Messages that a writer sent and that never came, since the subscription began.
+  [[nodiscard]] std::uint32_t lost() const noexcept {
+    dds_sample_lost_status_t status{};
+    (void)dds_get_sample_lost_status(reader_, &status);
+    return status.total_count;
+  }
+  [[nodiscard]] dds_entity_t reader() const noexcept { return reader_; }
+
  private:
   dds_entity_t reader_ = 0;
+};
+
+/// Waits until one of several topics has something. Valid as long as its node.
+class RosWait {
+ public:
+  [[nodiscard]] hal::Fault Open(dds_entity_t participant,
+                                std::initializer_list<dds_entity_t> readers);
+  void For(std::int64_t timeout_ns) const noexcept;
+
+ private:
+  dds_entity_t waitset_ = 0;
 };
 
 /// Waits a moment until as many read the replies as write the requests: DDS finds a client's two
@@ -143,8 +193,12 @@ class RosNode {
     return fault;
   }
 
-  /// Tells the ROS graph who is here, with all topics and services made so far.
+  /// Tells the ROS graph who is here, with all topics and services made so far. May be called again
+  /// when there are more.
   [[nodiscard]] hal::Fault Announce();
+
+  [[nodiscard]] const Options& options() const noexcept { return options_; }
+  [[nodiscard]] dds_entity_t participant() const noexcept { return participant_; }
 
   /// @return true if anything of this node is listened to.
   [[nodiscard]] bool HasListeners() const noexcept;
@@ -169,6 +223,7 @@ class RosNode {
   dds_entity_t participant_ = 0;  ///< With all its children deleted with the domain.
   std::vector<dds_entity_t> writers_;
   std::vector<dds_entity_t> readers_;
+  dds_entity_t graph_writer_ = 0;  ///< Of Announce(), once it was called.
 };
 
 }  // namespace disflow::posix

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "disflow/posix/dds/ros_depth_topic.h"
+
+#include <cstring>
+
+#include "disflow/posix/dds/ros_camera_info.h"
+
+namespace disflow::posix {
+namespace {
+
+using hal::Fault;
+
+/// The capture time; it is never made up.
+Fault ReadStamp(const ros::Header& header, StampNs& stamp_ns) {
+  constexpr std::uint32_t kNsPerS = 1'000'000'000;
+  const ros::Time& time = header.stamp;
+  if (time.sec < 0 || time.nanosec >= kNsPerS || (time.sec == 0 && time.nanosec == 0)) {
+    return hal::MakeFault(Status::kCorrupt,
+                          "header.stamp is %d.%09u, so nobody knows when it was taken", time.sec,
+                          time.nanosec);
+  }
+  stamp_ns = StampNs{time.sec} * kNsPerS + time.nanosec;
+  return {};
+}
+
+/// Lends the bytes to a sequence, whose own are given back.
+template <class Sequence>
+void LendTo(Sequence& sequence, std::vector<std::uint8_t>& bytes) noexcept {
+  if (bytes.empty() || sequence._buffer == bytes.data()) return;
+  if (sequence._release) dds_free(sequence._buffer);
+  Lend(bytes, sequence);
+  sequence._length = 0;
+}
+
+/// Texts are kept from message to message, so nobody may fill memory with them.
+void DropIfLong(char*& text) noexcept {
+  constexpr std::size_t kLongest = 255;  // of a name in ROS
+  if (text == nullptr || std::strlen(text) <= kLongest) return;
+  dds_string_free(text);
+  text = nullptr;
+}
+
+}  // namespace
+
+Fault RosDepthTopic::Subscribe(RosNode& node, const std::string& topic) {
+  compressed_ = IsCompressedDepthTopic(topic);
+  return compressed_ ? node.Subscribe(topic, RosQos::kSensorData, packed_)
+                     : node.Subscribe(topic, RosQos::kSensorData, plain_);
+}
+
+bool RosDepthTopic::Take(Image& image) noexcept {
+  Slot& slot = slots_[back_];
+  return compressed_ ? TakePacked(slot, image) : TakePlain(slot, image);
+}
+
+bool RosDepthTopic::TakePlain(Slot& slot, Image& image) noexcept {
+  ros::Image& message = slot.plain.message;
+  LendTo(message.data, slot.bytes);
+  if (!plain_.TakeOne(slot.plain)) return false;
+  DropIfLong(message.header.frame_id);
+  DropIfLong(message.encoding);
+  image.fault = ReadStamp(message.header, image.stamp_ns);
+  if (!image.fault.ok()) return true;
+  image.fault = slot.decoder.Decode({.encoding = TextOf(message.encoding),
+                                     .width_px = message.width,
+                                     .height_px = message.height,
+                                     .step_bytes = message.step,
+                                     .is_big_endian = message.is_bigendian != 0,
+                                     .data = {message.data._buffer, message.data._length}},
+                                    image.depth);
+  return true;
+}
+
+bool RosDepthTopic::TakePacked(Slot& slot, Image& image) noexcept {
+  ros::CompressedImage& message = slot.packed.message;
+  LendTo(message.data, slot.bytes);
+  if (!packed_.TakeOne(slot.packed)) return false;
+  DropIfLong(message.header.frame_id);
+  DropIfLong(message.format);
+  image.fault = ReadStamp(message.header, image.stamp_ns);
+  if (!image.fault.ok()) return true;
+  image.fault = slot.decoder.DecodeCompressed(
+      TextOf(message.format), {message.data._buffer, message.data._length}, image.depth);
+  return true;
+}
+
+void RosDepthTopic::FixSize(const DepthView& depth) {
+  const std::size_t bytes =
+      compressed_ ? RosDepthDecoder::MostCompressedBytes(depth.width_px, depth.height_px)
+                  : slots_[back_].plain.message.data._length;
+  for (Slot& slot : slots_) {
+    slot.bytes.resize(bytes);
+    slot.decoder.FixSize(depth.width_px, depth.height_px);
+  }
+}
+
+}  // namespace disflow::posix
