@@ -28,6 +28,7 @@ export function run(...options) {
   const child = owned(spawn(join(bin, "disflow_track"), options, { stdio: ["ignore", "ignore", "pipe"] }));
   let said = "";
   child.stderr.on("data", (data) => (said += data));
+  child.said = () => said;
   child.ended = new Promise((resolve) => child.once("exit", (status) => resolve({ status, said })));
   return child;
 }
