@@ -5,17 +5,16 @@ import assert from "node:assert/strict";
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
-import { cameraInfo, millimetres, png, quantised, readFrames, rows, writeRecording } from "./frames.js";
+import { millimetres, png, quantised, readFrames, rows, writeRecording } from "./frames.js";
 import { decode, writerOf } from "./messages.js";
 import { Peer } from "./peer.js";
-import { bin, ddsType, domain, file, run, samplesOf, sleep } from "./program.js";
+import { headerOf, Player, stampOf } from "./player.js";
+import { bin, domain, file, run } from "./program.js";
 import { stampNs, trajectory } from "./trajectory.js";
 
 const kFrames = 30;
 const image = writerOf("sensor_msgs/Image");
 const compressed = writerOf("sensor_msgs/CompressedImage");
-const info = writerOf("sensor_msgs/CameraInfo");
-const network = `domain=${domain}&interface=lo&peer=127.0.0.1`;
 const common = ["--headless", "--no-timing", "--mesh", file("unused.ply")];
 
 let camera;
@@ -38,60 +37,9 @@ before(async () => {
 });
 after(() => peer.stop());
 
-const stampOf = (ns) => ({ sec: Number(ns / 1000000000n), nanosec: Number(ns % 1000000000n) });
-/** The encoder's stamps have another name for it. */
-const headerOf = (ns) => ({
-  stamp: { sec: stampOf(ns).sec, nsec: stampOf(ns).nanosec },
-  frame_id: "camera_depth_optical_frame",
-});
 const sinceEpoch = Array.from({ length: kFrames }, (_, i) => 1789012345678901234n + BigInt(i) * 33333333n);
 /** Those that replay: gives a folder of PNG. */
 const fromOne = Array.from({ length: kFrames }, (_, i) => 1000000000n + (BigInt(i) * 1000000000n) / 30n);
-
-async function publish(topic, type, qos, bytes) {
-  writeFileSync(file("sample"), bytes);
-  assert.equal(await peer.do("publish", topic, ddsType(type), qos, file("sample")), "published");
-}
-
-/** Again and again until it has worked: what a best-effort writer sends is lost until the other side knows it. */
-async function repeat(send, worked) {
-  for (let i = 0; i < 100 && !(await worked()); ++i) {
-    await send();
-    await sleep(100);
-  }
-}
-
-/**
- * Plays images one after the other, each when the one before has been tracked.
- * @param send Publishes the image of that index.
- * @param rubbish Publishes something that is no image.
- */
-async function play({ name, topic, qos, stamps, send, rubbish }) {
-  const status = `rt/${name}/object/status`;
-  await peer.do("subscribe", status, ddsType("diagnostic_msgs/DiagnosticArray"), "reliable", file(`${name}.status`));
-  const child = run(
-    "--sensor", `dds:domain=${domain}&depth=${topic}&name=${name}`, ...common, "--csv", file(`${name}.csv`),
-    "--link", `dds:${network}`,
-  );
-  const sendInfo = (i) =>
-    publish(`rt/${name}/depth/camera_info`, "sensor_msgs/CameraInfo", qos, info.writeMessage(cameraInfo(headerOf(stamps[i]), camera)));
-  const tracked = async (count) => Number(await peer.do("count", status)) >= count;
-  // It says what is wrong as long as it has no image: then it hears.
-  await repeat(rubbish, () => /0 x 0 pixels/.test(child.said()));
-  await send(0);
-  await repeat(() => sendInfo(0), () => tracked(1));
-  for (let i = 1; i < stamps.length; ++i) {
-    const both = [() => send(i), () => sendInfo(i)];
-    // Drivers send them in either order.
-    if (i % 2 === 0) both.reverse();
-    for (const one of both) await one();
-    await samplesOf(peer, status, i + 1);
-    assert.ok(await tracked(i + 1), `frame ${i} has come and gone; ${child.said()}`);
-  }
-  child.kill("SIGTERM");
-  const ended = await child.ended;
-  assert.equal(ended.status, 0, ended.said);
-}
 
 async function replay(folder, name) {
   await finished("--sensor", `replay:${folder}?mask=none`, ...common, "--csv", file(`${name}.csv`));
@@ -152,12 +100,15 @@ for (const { name, qos, topic, stamps, type, encode, record } of [
     record(file(`${name}.replay`));
     await replay(file(`${name}.replay`), "replayed");
     const fullTopic = `/${name}/depth/${topic}`;
-    const publishImage = (frame, stamp) => publish("rt" + fullTopic, type, qos, encode(frame, stamp));
-    await play({
-      name, topic: fullTopic, qos, stamps,
-      send: (i) => publishImage(frames[i], stamps[i]),
-      rubbish: () => publishImage(nothing, stamps[0]),
-    });
+    const player = new Player({ peer, camera, name, qos, stamps });
+    const publish = (frame, stamp) => player.publish(fullTopic, type, qos, encode(frame, stamp));
+    player.sendImage = (i) => publish(frames[i], stamps[i]);
+    player.sendRubbish = () => publish(nothing, stamps[0]);
+    const { status, said } = await player.play(
+      "--sensor", `dds:domain=${domain}&depth=${fullTopic}&name=${name}`, ...common, "--csv", file(`${name}.csv`),
+      "--link", `dds:domain=${domain}&interface=lo&peer=127.0.0.1`,
+    );
+    assert.equal(status, 0, said);
     assertSameTrajectory(name, "replayed");
     // What goes out is dated as what came in, to the nanosecond.
     const sent = decode(file(`${name}.status`), "diagnostic_msgs/DiagnosticArray");

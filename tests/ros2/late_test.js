@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { decode, writerOf } from "./messages.js";
+import { decode, graphEntry, writerOf } from "./messages.js";
 import { Peer } from "./peer.js";
 import { bin, ddsType, domain, file, run, samplesOf, sleep } from "./program.js";
 import { trajectory } from "./trajectory.js";
@@ -14,18 +14,6 @@ const reset = {
   request: requestHeader + "uint8 structure_needs_at_least_one_member",
   response: requestHeader + "bool success\nstring message",
 };
-const graphEntry = `rmw_dds_common/Gid gid
-rmw_dds_common/NodeEntitiesInfo[] node_entities_info_seq
-================
-MSG: rmw_dds_common/Gid
-uint8[16] data
-================
-MSG: rmw_dds_common/NodeEntitiesInfo
-string<=256 node_namespace
-string<=256 node_name
-rmw_dds_common/Gid[] reader_gid_seq
-rmw_dds_common/Gid[] writer_gid_seq`;
-
 test("Who comes late sees the node, the path and the surface, and can reset the object", async () => {
   const child = run(
     "--sensor", "sim:box?motion=moderate", "--rate", "realtime", "--frames", "900", "--headless", "--csv", file("late.csv"),

@@ -7,6 +7,19 @@ import { MessageReader, MessageWriter } from "@foxglove/rosmsg2-serialization";
 
 const humble = definitions.ros2humble;
 
+/** Of ros_discovery_info, which tells nodes; ROS 2 Iron and later. */
+export const graphEntry = `rmw_dds_common/Gid gid
+rmw_dds_common/NodeEntitiesInfo[] node_entities_info_seq
+================
+MSG: rmw_dds_common/Gid
+uint8[16] data
+================
+MSG: rmw_dds_common/NodeEntitiesInfo
+string<=256 node_namespace
+string<=256 node_name
+rmw_dds_common/Gid[] reader_gid_seq
+rmw_dds_common/Gid[] writer_gid_seq`;
+
 /** All definitions that the root needs, the root first; `own` are looked at before ROS's. */
 function withDependencies(root, own = {}) {
   const found = new Map([[root.name ?? "", root]]);

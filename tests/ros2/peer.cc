@@ -9,7 +9,9 @@
 //                                               endian), then the bytes with their encapsulation
 //   count TOPIC                                 samples received so far
 //   publish TOPIC TYPE QOS FILE                 one sample, the bytes of FILE, once somebody
-//   listens call REQUEST_TOPIC TYPE REPLY_TOPIC TYPE REQUEST_FILE REPLY_FILE
+//                                               listens
+//   unpublish TOPIC                             takes the writer away again
+//   call REQUEST_TOPIC TYPE REPLY_TOPIC TYPE REQUEST_FILE REPLY_FILE
 //
 // QOS is reliable, latched or best_effort.
 
@@ -150,6 +152,9 @@ class Peer {
     if (word.size() == 5 && word[0] == "publish") {
       return Publish(word[1], word[2], word[3], word[4]) ? "published" : "nobody listens";
     }
+    if (word.size() == 2 && word[0] == "unpublish") {
+      return Unpublish(word[1]) ? "unpublished" : "never published";
+    }
     if (word.size() == 7 && word[0] == "call") {
       return Call(word) ? "answered" : "no answer";
     }
@@ -214,6 +219,14 @@ class Peer {
     if (is_new) std::this_thread::sleep_for(kSettle);
     Bytes bytes = Read(path);
     return matched && writer->write(&bytes);
+  }
+
+  bool Unpublish(const std::string& topic) {
+    const auto writer = writers_.find(topic);
+    if (writer == writers_.end()) return false;
+    publisher_->delete_datawriter(writer->second);
+    writers_.erase(writer);
+    return true;
   }
 
   bool Call(const std::vector<std::string>& word) {

@@ -77,6 +77,77 @@ TEST(DdsAddress, EachWrongOption_IsNamedWithWhatItMayBe) {
   }
 }
 
+TEST(DdsSensorAddress, EveryOption_IsTaken) {
+  const DdsSensorAddress address = ParseDdsSensorAddress(
+      "dds:domain=5&name=arm&interface=eth0&peer=10.0.0.2&ros=humble&depth=/cam/image/"
+      "compressedDepth"
+      "&info=/cam/info&rectified=no&wait=0");
+  EXPECT_EQ(address.domain, 5U);
+  EXPECT_EQ(address.name, "arm");
+  EXPECT_EQ(address.interface, "eth0");
+  EXPECT_EQ(address.peers, std::vector<std::string>{"10.0.0.2"});
+  EXPECT_TRUE(address.before_iron);
+  EXPECT_EQ(address.depth_topic, "/cam/image/compressedDepth");
+  EXPECT_EQ(address.info_topic, "/cam/info");
+  EXPECT_EQ(address.rectified, false);
+  EXPECT_EQ(address.wait_s, 0U);
+}
+
+TEST(DdsSensorAddress, WhatIsLeftOut_KeepsItsDefault) {
+  const DdsSensorAddress address = ParseDdsSensorAddress("dds:depth=/depth");
+  EXPECT_EQ(address.domain, 0U);
+  EXPECT_EQ(address.info_topic, "");
+  EXPECT_FALSE(address.rectified.has_value());
+  EXPECT_GT(address.wait_s, 0U);
+}
+
+TEST(DdsSensorAddress, EachWrongOption_IsNamedWithWhatItMayBe) {
+  for (const Wrong& wrong : std::to_array<Wrong>({
+           {"dds:", "write dds:domain=0&depth=/"},
+           {"dds:domain=0", "depth= is missing"},
+           {"dds:depth=", "no topic"},
+           {"dds:depth=image", "no topic"},
+           {"dds:depth=/a&info=b", "info=b is no topic"},
+           {"dds:depth=/a&depth=/a", "depth is given twice"},
+           {"dds:depth=/a&rectified=1", "neither yes nor no"},
+           {"dds:depth=/a&wait=-1", "wait=-1 is not a number"},
+           {"dds:depth=/a&wait=86401", "from 0 to 86400"},
+           {"dds:depth=/a&world=map", "unknown option world"},
+       })) {
+    const std::string said = RefusalOf([&] { (void)ParseDdsSensorAddress(wrong.uri); });
+    EXPECT_NE(said.find(wrong.said), std::string::npos) << wrong.uri << ": " << said;
+  }
+  EXPECT_NE(Refusal("dds:depth=/a").find("unknown option depth"), std::string::npos);
+}
+
+TEST(DdsSensorAddress, WithALinkInItsDomain_BothAreOneNodeOfWhatEitherSays) {
+  const DdsNodeAddress node =
+      SensorNode(ParseDdsSensorAddress("dds:domain=1&depth=/a&interface=lo&name=eye"),
+                 "dds:domain=1&peer=h&ros=humble&name=eye");
+  EXPECT_EQ(node.interface, "lo");
+  EXPECT_EQ(node.name, "eye");
+  EXPECT_EQ(node.peers, std::vector<std::string>{"h"});
+  EXPECT_TRUE(node.before_iron);
+}
+
+TEST(DdsSensorAddress, LinkInAnotherDomain_IsAnotherNode) {
+  const DdsNodeAddress node =
+      SensorNode(ParseDdsSensorAddress("dds:domain=1&depth=/a&name=eye"), "dds:domain=2&name=arm");
+  EXPECT_EQ(node.domain, 1U);
+  EXPECT_EQ(node.name, "eye");
+}
+
+TEST(DdsSensorAddress, OneNodeSaidToBeTwo_IsRefusedByTheOption) {
+  for (const Wrong& wrong : std::to_array<Wrong>(
+           {{"name=arm", "name="}, {"interface=eth0", "interface="}, {"peer=k", "peer="}})) {
+    const std::string said = RefusalOf([&] {
+      (void)SensorNode(ParseDdsSensorAddress("dds:depth=/a&name=eye&interface=lo&peer=h"),
+                       std::string("dds:") + wrong.uri);
+    });
+    EXPECT_NE(said.find(wrong.said), std::string::npos) << said;
+  }
+}
+
 TEST(DdsAddress, TooManyPeers_AreRefused) {
   std::string uri = "dds:peer=h";
   for (int i = 1; i < 16; ++i) uri += ",h";

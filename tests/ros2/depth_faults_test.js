@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Depth images from ROS 2 together with all else that ROS 2 has to say, and what goes wrong.
+// Usage: node depth_faults_test.js BIN_FOLDER
+import assert from "node:assert/strict";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { rows } from "./frames.js";
+import { decode, graphEntry, writerOf } from "./messages.js";
+import { Peer } from "./peer.js";
+import { headerOf, Player, repeat } from "./player.js";
+import { bin, domain, file, run, samplesOf, sleep } from "./program.js";
+import { trajectory } from "./trajectory.js";
+
+const camera = { width: 80, height: 60, fx: 80, fy: 80, cx: 40, cy: 30 };
+const network = `domain=${domain}&interface=lo&peer=127.0.0.1`;
+const image = writerOf("sensor_msgs/Image");
+const tf = writerOf("tf2_msgs/TFMessage");
+const stamps = Array.from({ length: 40 }, (_, i) => 1789012345000000000n + BigInt(i) * 33333333n);
+let peer;
+before(async () => (peer = await Peer.start(join(bin, "ros2_peer"), domain)));
+after(() => peer.stop());
+
+/** A ball in front of a wall; no two images of it are the same. */
+function ball(i) {
+  const values = new Uint16Array(80 * 60).map((_, k) => {
+    const [u, v] = [(k % 80) - 40, Math.floor(k / 80) - 30];
+    const inside = 20 * 20 - u * u - v * v;
+    return inside > 0 ? 900 - 10 * Math.sqrt(inside) + ((k * (i + 7)) % 3) : 2000;
+  });
+  return rows({ width: 80, height: 60 }, values, 160, false);
+}
+const message = (i, change = {}) =>
+  image.writeMessage({
+    header: headerOf(stamps[i]), height: 60, width: 80, encoding: "16UC1", is_bigendian: 0, step: 160, data: ball(i), ...change,
+  });
+
+function playerOf(name) {
+  const player = new Player({ peer, camera, name, qos: "reliable", stamps });
+  player.send = (bytes) => player.publish(`/${name}/depth/image_rect_raw`, "sensor_msgs/Image", "reliable", bytes);
+  player.sendImage = (i) => player.send(message(i));
+  player.sendRubbish = () => player.send(message(0, { width: 0, height: 0, data: new Uint8Array() }));
+  return player;
+}
+const sensorOf = (name) => `dds:depth=/${name}/depth/image_rect_raw&name=${name}&${network}`;
+
+test("Depth, masks and tf come in and poses go out by one node", async () => {
+  const player = playerOf("together");
+  await peer.do("subscribe", "ros_discovery_info", "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_", "latched", file("graph"));
+  const mask = () => new Uint8Array(80 * 60).map((_, k) => ((k % 80) - 40) ** 2 + (Math.floor(k / 80) - 30) ** 2 < 400 ? 1 : 0);
+  player.sendImage = async (i) => {
+    const header = headerOf(stamps[i]);
+    const moving = { header: { ...header, frame_id: "map" }, child_frame_id: "eye",
+      transform: { translation: { x: 1, y: 2, z: 3 }, rotation: { x: 0, y: 0, z: 0, w: 1 } } };
+    await player.publish("/tf", "tf2_msgs/TFMessage", "reliable", tf.writeMessage({ transforms: [moving] }));
+    await player.publish("/together/mask", "sensor_msgs/Image", "best_effort",
+      image.writeMessage({ header, height: 60, width: 80, encoding: "mono8", is_bigendian: 0, step: 80, data: mask() }));
+    await player.send(message(i));
+  };
+  const start = ["--sensor", sensorOf("together"), "--headless", "--csv", file("together.csv")];
+  // Topics of the link are there with the first frame, so tf and masks only reach it later.
+  const sendAll = player.sendImage;
+  player.sendImage = (i) => player.send(message(i));
+  await player.start(...start, "--link", `dds:domain=${domain}&world=map&camera=eye&mask=/together/mask`);
+  player.sendImage = sendAll;
+  for (let i = 1; i < stamps.length; ++i) await player.step(i);
+  const { status, said } = await player.stop();
+  assert.equal(status, 0, said);
+  assert.match(said, /masks from \/together\/mask: [1-9]\d+ used/, said);
+  assert.match(said, /camera poses: [1-9]\d+ received, .* [1-9]\d+ frames matched/, said);
+  const participants = decode(file("graph"), graphEntry);
+  assert.equal(new Set(participants.map(({ gid }) => String(gid.data))).size, 1, "one participant");
+  const { node_entities_info_seq: nodes } = participants.at(-1);
+  assert.deepEqual(nodes.map((node) => node.node_namespace + node.node_name), ["/together"]);
+  assert.equal(nodes[0].reader_gid_seq.length, 7, "depth, info, mask, tf, tf_static, two services");
+  assert.equal(nodes[0].writer_gid_seq.length, 11, "nine topics and two services");
+});
+
+test("Messages that are of no use cost themselves alone, and are counted", async () => {
+  const player = playerOf("rubbish");
+  await player.start("--sensor", sensorOf("rubbish"), "--headless", "--csv", file("rubbish.csv"), "--link", `dds:domain=${domain}`);
+  const wrong = [
+    { width: 0xffffffff, height: 0xffffffff, step: 0xffffffff }, { width: 81 }, { step: 3 }, { data: new Uint8Array(7) },
+    { encoding: "8UC3" }, { encoding: "" }, { encoding: "\u001b[2J".repeat(20000) }, { data: new Uint8Array(2000000), height: 59 },
+    { header: { stamp: { sec: 0, nsec: 0 }, frame_id: "" } }, { header: { stamp: { sec: -5, nsec: 0 }, frame_id: "" } },
+  ];
+  let rows = 1;
+  for (const [k, change] of wrong.entries()) {
+    await player.send(message(k + 1, change));
+    await samplesOf(peer, player.status, ++rows);
+    await player.send(message(k + 1));
+    await samplesOf(peer, player.status, ++rows);
+  }
+  await player.send(Uint8Array.of(0, 1, 0, 0, 1, 2, 3)); // no message at all
+  await player.send(message(wrong.length + 1));
+  await samplesOf(peer, player.status, ++rows);
+  const { status, said } = await player.stop();
+  assert.equal(status, 0, said);
+  assert.doesNotMatch(said.replaceAll("\n", ""), /[^ -~]/, "nothing that a terminal obeys");
+  const seen = trajectory(file("rubbish.csv"));
+  assert.equal(seen.length, rows);
+  assert.equal(seen.filter((row) => /corrupt|truncated/.test(row.status)).length, wrong.length, said);
+  assert.ok(seen.slice(-1)[0].status === "ok", JSON.stringify(seen.slice(-1)[0]));
+});
+
+test("A driver that ends is waited for, and tracked on when it is back", async () => {
+  const player = playerOf("restart");
+  await player.start("--sensor", sensorOf("restart"), "--headless", "--csv", file("restart.csv"), "--link", `dds:domain=${domain}`);
+  await player.step(1);
+  for (const topic of ["image_rect_raw", "camera_info"]) {
+    assert.equal(await peer.do("unpublish", `rt/restart/depth/${topic}`), "unpublished");
+  }
+  for (let i = 0; i < 200 && !/waiting for it to come back/.test(player.child.said()); ++i) await sleep(50);
+  assert.match(player.child.said(), /its publisher is gone; waiting for it to come back/);
+  const refused = () => player.child.said().split("0 x 0 pixels").length - 1;
+  const before = refused();
+  await repeat(() => player.sendRubbish(), () => refused() > before);
+  await player.sendImage(2);
+  await repeat(() => player.sendInfo(2), () => /the sensor is back/.test(player.child.said()));
+  const { status, said } = await player.stop();
+  assert.equal(status, 0, said);
+  assert.match(said, /the sensor is back/);
+  const good = trajectory(file("restart.csv")).filter((row) => row.status === "ok");
+  assert.equal(good.length, 3);
+  // The camera may have been moved meanwhile.
+  assert.notEqual(good[2].reset_counter, good[1].reset_counter);
+});
+
+test("A lens that distorts raw images is refused with what to do", async () => {
+  const player = playerOf("distorted");
+  const child = run("--sensor", `dds:depth=/distorted/depth/image_raw&${network}`, "--headless");
+  // Nobody listens any more once it has ended.
+  const send = async () => {
+    await player.publish("/distorted/depth/image_raw", "sensor_msgs/Image", "reliable", message(0));
+    await player.sendInfo(0, { d: Float64Array.of(0.1, 0, 0, 0, 0) });
+  };
+  const hasEnded = async () => child.exitCode !== null;
+  await repeat(() => send().catch(() => {}), hasEnded);
+  const { status, said } = await child.ended;
+  assert.equal(status, 3);
+  assert.match(said, /\/distorted\/depth\/camera_info: the lens distorts .* subscribe to the rectified topic/);
+});
+
+for (const [sensor, link, words, status] of [
+  ["dds:domain=0", "", /depth= is missing/, 2],
+  ["dds:depth=relative", "", /depth=relative is no topic/, 2],
+  ["dds:depth=/a&mask=/b", "", /unknown option mask; there are .*depth, info, rectified, wait/, 2],
+  ["dds:depth=/a&name=left", "dds:name=right", /one node in a domain: name= of both/, 2],
+  ["dds:depth=/a&interface=nothere9", "", /nothere9/, 3],
+  [`dds:depth=/nobody/here&wait=1&${network}`, "", /nobody publishes this sensor_msgs\/msg\/Image/, 3],
+]) {
+  test(`'${sensor.replaceAll(String(domain), "N")}' is refused with words that help`, async () => {
+    const answer = await run("--sensor", sensor, "--headless", ...(link ? ["--link", link] : [])).ended;
+    assert.match(answer.said, words);
+    assert.equal(answer.status, status);
+  });
+}
