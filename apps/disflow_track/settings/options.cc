@@ -3,7 +3,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <map>
@@ -286,9 +285,8 @@ Options ParseCommandLine(int argc, char** argv, bool& exit_now) {
   ReadSettings(app, settings, options);
   CheckResolution(options);
   SplitLinks(options);
-  if (IsDdsAddress(options.sensor)) {
+  if (IsDdsAddress(options.sensor))
     (void)SensorNode(ParseDdsSensorAddress(options.sensor), options.dds_link);
-  }
   CheckCameraPose(options);
   CheckMaskStream(options);
   if (options.sensor.empty() && !options.list_sensors && !options.print_config &&
