@@ -21,7 +21,7 @@ class Input {
   T Take() {
     T value{};
     const std::size_t size = std::min(sizeof(T), rest_.size());
-    std::memcpy(&value, rest_.data(), size);
+    if (size > 0) std::memcpy(&value, rest_.data(), size);
     rest_.erase(rest_.begin(), rest_.begin() + static_cast<std::ptrdiff_t>(size));
     return value;
   }
@@ -44,14 +44,13 @@ void CheckImage(const hal::Fault& fault, const DepthView& depth) {
   if (!fault.ok()) return;
   Require(depth.width_px > 0 && depth.height_px > 0);
   Require(depth.stride_bytes >= std::ptrdiff_t{depth.width_px} * depth.bytes_per_pixel());
-  unsigned sum = 0;
+  std::size_t sum = 0;
   for (int v = 0; v < depth.height_px; ++v) {
     for (int i = 0; i < depth.width_px * depth.bytes_per_pixel(); ++i) {
-      sum += std::to_integer<unsigned>(depth.row(v)[i]);
+      sum += std::to_integer<std::size_t>(depth.row(v)[i]);
     }
   }
-  Require(sum <= 255U * static_cast<unsigned>(depth.stride_bytes) *
-                     static_cast<unsigned>(depth.height_px));
+  Require(sum <= 255U * static_cast<std::size_t>(depth.stride_bytes * depth.height_px));
 }
 
 void CheckPlain(Input& input, posix::RosDepthDecoder& decoder) {

@@ -14,7 +14,7 @@ namespace disflow::apps {
 /// Points as sensor_msgs/PointCloud2, every field a float. Used again and again.
 class DdsCloud {
  public:
-  explicit DdsCloud(std::initializer_list<const char*> fields);
+  DdsCloud(std::initializer_list<const char*> fields);
 
   void Clear() noexcept { data_.clear(); }
   /// One point: as many numbers as there are fields.

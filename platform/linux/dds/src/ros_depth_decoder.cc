@@ -123,10 +123,11 @@ Fault RosDepthDecoder::Decode(const RosImage& image, DepthView& depth) const noe
                      image.width_px, pixel);
   }
   // Nobody needs the padding of the last row.
-  const std::size_t bytes = (image.height_px - 1) * step + row;
+  if (image.height_px == 1) step = row;
+  const std::uint64_t bytes = std::uint64_t{image.height_px - 1} * step + row;
   if (image.data.size() < bytes) {
-    return MakeFault(Status::kTruncated, "an image of %u x %u pixels with %zu of %zu bytes",
-                     image.width_px, image.height_px, image.data.size(), bytes);
+    return MakeFault(Status::kTruncated, "an image of %u x %u pixels with %zu of %ju bytes",
+                     image.width_px, image.height_px, image.data.size(), std::uintmax_t{bytes});
   }
   std::uint8_t* const data = image.data.data();
   if (step % pixel != 0) {

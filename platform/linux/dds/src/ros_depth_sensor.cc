@@ -153,8 +153,10 @@ Fault RosDepthSensor::Missing() const {
     return MakeFault(Status::kNotFound, "%s: nobody publishes this %s in domain %u", name_.c_str(),
                      images_.type(), static_cast<unsigned>(node_->options().network.domain));
   }
-  return MakeFault(Status::kNotFound, "%s: its %u publishers have sent nothing yet", name_.c_str(),
-                   writers);
+  return MakeFault(Status::kNotFound,
+                   "%s: its %u publishers have sent nothing yet, or nothing that came through "
+                   "(rmem_max in docs/ros2.md)",
+                   name_.c_str(), writers);
 }
 
 Fault RosDepthSensor::DoNext(std::int64_t timeout_ns, DepthFrame& frame) noexcept {

@@ -124,6 +124,13 @@ TEST(RosDepthDecoder, ImageThatContradictsItself_IsRefusedInWords) {
   }
 }
 
+TEST(RosDepthDecoder, StepOfASingleRow_IsOfNoUseAndDoesNoHarm) {
+  Bytes bytes = {1, 2, 3, 4};
+  DepthView depth;
+  ASSERT_TRUE(RosDepthDecoder().Decode({"16UC1", 2, 1, 0xFFFFFFFF, false, bytes}, depth).ok());
+  EXPECT_EQ(depth.stride_bytes, 4);
+}
+
 TEST(RosDepthDecoder, EncodingOfAnyBytes_IsSaidInPrintableWords) {
   Bytes bytes(64);
   DepthView depth;

@@ -7,6 +7,8 @@
 #include <optional>
 #include <set>
 
+#include "eventually.h"
+
 namespace disflow::posix {
 namespace {
 
@@ -220,6 +222,20 @@ TEST_F(RosDepthSensorTest, PublisherThatGoesAndComesBack_IsLostAndReconnected) {
   ASSERT_TRUE(sensor_.Next(kShort_ns, frame_).ok());
   EXPECT_EQ(MarkOf(frame_), 40);
   EXPECT_EQ(frame_.camera.fx_px, 20.0F);
+}
+
+TEST_F(RosDepthSensorTest, PublisherThatFallsSilent_IsSaidOnceAndWaitedFor) {
+  Open();
+  std::string said;
+  ASSERT_TRUE(test::Eventually([&] {
+    said = sensor_.Next(kShort_ns, frame_).message;
+    return sensor_.counters().restarts == 1;
+  }));
+  EXPECT_NE(said.find("no image has come"), std::string::npos) << said;
+  EXPECT_EQ(sensor_.Next(kShort_ns, frame_).status, Status::kTimeout);
+  EXPECT_EQ(sensor_.counters().restarts, 1U);
+  driver_->SendImage(60);
+  EXPECT_TRUE(sensor_.Next(kShort_ns, frame_).ok());
 }
 
 TEST_F(RosDepthSensorTest, LensThatDistorts_EndsTheStartWithWhatToDo) {

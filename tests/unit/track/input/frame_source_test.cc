@@ -38,6 +38,7 @@ class FakeSensor final : public hal::DepthSensor {
   std::deque<Turn> turns;
   std::deque<Status> answers_to_open;  ///< Empty: it opens.
   bool live = false;
+  bool epoch_stamps = false;
   int opened = 0;
 
  private:
@@ -62,6 +63,7 @@ class FakeSensor final : public hal::DepthSensor {
   hal::SensorInfo DoInfo() const noexcept override {
     hal::SensorInfo info;
     info.live = live;
+    info.epoch_stamps = epoch_stamps;
     return info;
   }
   hal::SensorCounters DoCounters() const noexcept override { return {}; }
@@ -178,6 +180,9 @@ TEST_F(FrameSourceTest, AgeOfARecordedFrame_IsUnknown) {
   EXPECT_LT(Make(Rate::kMax).AgeNs(clock_.now_ns), 0);
   sensor_.live = true;
   EXPECT_EQ(Make(Rate::kMax).AgeNs(clock_.now_ns - 5), 5);
+  // Of another clock.
+  sensor_.epoch_stamps = true;
+  EXPECT_LT(Make(Rate::kMax).AgeNs(clock_.now_ns - 5), 0);
 }
 
 }  // namespace
