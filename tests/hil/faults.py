@@ -120,7 +120,7 @@ unplug
         self.assertLessEqual({row["status"] for row in rows}, {"ok", "corrupt", "truncated"})
         report = self.text("damaged")
         self.assertIn("2 corrupt", report)
-        self.assertIn("stream started anew 1 times", report)
+        self.assertIn("stream stalled or failed 1 times", report)
         self.assertIn("sensor came back 1 times", report)
         self.assertIn("waiting for it to come back", report)
         self.assertIn("the sensor is back", report)

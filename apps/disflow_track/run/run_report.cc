@@ -45,7 +45,7 @@ std::string FormatSensor(const hal::SensorCounters& sensor) {
     text += Print(" (%u in the driver, %u for a newer one)", sensor.gaps, sensor.skipped);
   }
   if (sensor.corrupt > 0) text += Print(", %u corrupt", sensor.corrupt);
-  if (sensor.restarts > 0) text += Print(", stream started anew %u times", sensor.restarts);
+  if (sensor.restarts > 0) text += Print(", stream stalled or failed %u times", sensor.restarts);
   if (sensor.reconnects > 0) text += Print(", sensor came back %u times", sensor.reconnects);
   return text;
 }

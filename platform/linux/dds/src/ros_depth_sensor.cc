@@ -118,7 +118,6 @@ void RosDepthSensor::FixSize(const DepthView& depth) {
   images_.FixSize(depth);
   width_px_ = depth.width_px;
   height_px_ = depth.height_px;
-  lost_before_ = images_.lost();
 }
 
 Fault RosDepthSensor::Refuse(const Fault& fault) {
@@ -237,9 +236,7 @@ hal::SensorInfo RosDepthSensor::DoInfo() const noexcept {
 
 hal::SensorCounters RosDepthSensor::DoCounters() const noexcept {
   hal::SensorCounters counters = counters_;
-  counters.gaps = width_px_ > 0 ? images_.lost() - lost_before_ : 0;
-  counters.dropped = counters.skipped;
-  AddSaturating(counters.dropped, counters.gaps);
+  counters.dropped = counters.skipped;  // nobody tells what was lost on the way
   return counters;
 }
 

@@ -103,7 +103,7 @@ TEST(RunReport, TroubleOfTheSensor_IsSaidOnlyIfThereWasAny) {
   report.Add(result);
   const std::string text = report.Format(1.0);
   EXPECT_NE(text.find("5 frames dropped (2 in the driver, 3 for a newer one), 4 corrupt, stream "
-                      "started anew 6 times, sensor came back 8 times"),
+                      "stalled or failed 6 times, sensor came back 8 times"),
             std::string::npos)
       << text;
 }

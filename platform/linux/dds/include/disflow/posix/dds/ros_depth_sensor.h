@@ -68,7 +68,6 @@ class RosDepthSensor final : public hal::DepthSensor {
   int width_px_ = 0;     ///< 0: no image has come yet.
   int height_px_ = 0;
   std::int64_t alive_ns_ = 0;
-  std::uint32_t lost_before_ = 0;  ///< Messages lost before the first image was taken.
 };
 
 }  // namespace disflow::posix

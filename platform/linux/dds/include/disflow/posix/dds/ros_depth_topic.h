@@ -40,9 +40,6 @@ class RosDepthTopic {
   [[nodiscard]] std::uint32_t writers() const noexcept {
     return compressed_ ? packed_.writers() : plain_.writers();
   }
-  [[nodiscard]] std::uint32_t lost() const noexcept {
-    return compressed_ ? packed_.lost() : plain_.lost();
-  }
   [[nodiscard]] dds_entity_t reader() const noexcept {
     return compressed_ ? packed_.reader() : plain_.reader();
   }

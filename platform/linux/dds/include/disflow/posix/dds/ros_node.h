@@ -98,12 +98,6 @@ class RosSubscription {
     (void)dds_get_subscription_matched_status(reader_, &status);
     return status.current_count;
   }
-  /// Messages that a writer sent and that never came, since the subscription began.
-  [[nodiscard]] std::uint32_t lost() const noexcept {
-    dds_sample_lost_status_t status{};
-    (void)dds_get_sample_lost_status(reader_, &status);
-    return status.total_count;
-  }
   [[nodiscard]] dds_entity_t reader() const noexcept { return reader_; }
 
  private:
