@@ -40,6 +40,20 @@ void DropIfLong(char*& text) noexcept {
   text = nullptr;
 }
 
+/// Takes the oldest message and reads its stamp.
+/// @param text Of the message's texts the one beside its frame.
+template <class Message>
+bool TakeInto(RosSubscription<Message>& topic, RosSample<Message>& sample, char* Message::*text,
+              std::vector<std::uint8_t>& bytes, RosDepthTopic::Image& image) {
+  Message& message = sample.message;
+  LendTo(message.data, bytes);
+  if (!topic.TakeOne(sample)) return false;
+  DropIfLong(message.header.frame_id);
+  DropIfLong(message.*text);
+  image.fault = ReadStamp(message.header, image.stamp_ns);
+  return true;
+}
+
 }  // namespace
 
 Fault RosDepthTopic::Subscribe(RosNode& node, const std::string& topic) {
@@ -54,13 +68,9 @@ bool RosDepthTopic::Take(Image& image) noexcept {
 }
 
 bool RosDepthTopic::TakePlain(Slot& slot, Image& image) noexcept {
-  ros::Image& message = slot.plain.message;
-  LendTo(message.data, slot.bytes);
-  if (!plain_.TakeOne(slot.plain)) return false;
-  DropIfLong(message.header.frame_id);
-  DropIfLong(message.encoding);
-  image.fault = ReadStamp(message.header, image.stamp_ns);
+  if (!TakeInto(plain_, slot.plain, &ros::Image::encoding, slot.bytes, image)) return false;
   if (!image.fault.ok()) return true;
+  ros::Image& message = slot.plain.message;
   image.fault = slot.decoder.Decode({.encoding = TextOf(message.encoding),
                                      .width_px = message.width,
                                      .height_px = message.height,
@@ -72,13 +82,10 @@ bool RosDepthTopic::TakePlain(Slot& slot, Image& image) noexcept {
 }
 
 bool RosDepthTopic::TakePacked(Slot& slot, Image& image) noexcept {
-  ros::CompressedImage& message = slot.packed.message;
-  LendTo(message.data, slot.bytes);
-  if (!packed_.TakeOne(slot.packed)) return false;
-  DropIfLong(message.header.frame_id);
-  DropIfLong(message.format);
-  image.fault = ReadStamp(message.header, image.stamp_ns);
+  if (!TakeInto(packed_, slot.packed, &ros::CompressedImage::format, slot.bytes, image))
+    return false;
   if (!image.fault.ok()) return true;
+  const ros::CompressedImage& message = slot.packed.message;
   image.fault = slot.decoder.DecodeCompressed(
       TextOf(message.format), {message.data._buffer, message.data._length}, image.depth);
   return true;
