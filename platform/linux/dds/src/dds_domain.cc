@@ -3,7 +3,11 @@
 
 #include <arpa/inet.h>
 
+#include <atomic>
+#include <cstdio>
 #include <cstdlib>
+#include <mutex>
+#include <string>
 #include <string_view>
 
 namespace disflow::posix {
@@ -39,24 +43,41 @@ std::string Configuration(const DdsNetwork& network) {
   return text + "</Domain></CycloneDDS>";
 }
 
-/// Keeps the last words that Cyclone DDS would have logged.
+/// What Cyclone DDS would have logged; the threads of another domain may speak at the same time.
+struct LastWords {
+  std::mutex mutex;
+  std::string text;
+};
+
 void KeepMessage(void* kept, const dds_log_data_t* data) {
   std::string_view text(data->message, data->size);
   while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.remove_suffix(1);
-  static_cast<std::string*>(kept)->assign(text);
+  auto& words = *static_cast<LastWords*>(kept);
+  const std::lock_guard lock(words.mutex);
+  words.text.assign(text);
+}
+
+/// Cyclone DDS logs every message that it cannot read: whoever sends many must not fill the log.
+void SayTheFirst(void*, const dds_log_data_t* data) {
+  constexpr int kMost = 20;
+  static std::atomic<int> left = kMost;
+  const int before = left.load() > 0 ? left.fetch_sub(1) : 0;
+  if (before <= 0) return;
+  std::fprintf(stderr, "%.*s", static_cast<int>(data->size), data->message);
+  if (before == 1) std::fputs("Cyclone DDS: what it has to say further is left out\n", stderr);
 }
 
 }  // namespace
 
 hal::Fault OpenDomain(const DdsNetwork& network, DdsEntity& domain) {
-  std::string reason;
+  LastWords reason;
   dds_set_log_sink(KeepMessage, &reason);
   const dds_entity_t handle = dds_create_domain(network.domain, Configuration(network).c_str());
-  dds_set_log_sink(nullptr, nullptr);
+  dds_set_log_sink(SayTheFirst, nullptr);
   if (handle < 0) {
     return hal::MakeFault(Status::kIoError, "dds: domain %u cannot be opened: %s",
                           static_cast<unsigned>(network.domain),
-                          reason.empty() ? dds_strretcode(handle) : reason.c_str());
+                          reason.text.empty() ? dds_strretcode(handle) : reason.text.c_str());
   }
   domain = DdsEntity(handle);
   return {};

@@ -104,7 +104,8 @@ Fault RosDepthSensor::TakeImages() {
       verdict = Refuse(image.fault);
       continue;
     }
-    if (pending_) AddSaturating(counters_.skipped);
+    // Before the first frame nobody misses any.
+    if (pending_ && open_) AddSaturating(counters_.skipped);
     if (width_px_ == 0) FixSize(image.depth);
     images_.Keep();
     newest_ = image;

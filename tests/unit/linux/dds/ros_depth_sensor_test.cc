@@ -150,6 +150,17 @@ TEST_F(RosDepthSensorTest, WhenSeveralWait_TheNewestIsDeliveredAndTheOthersAreCo
   EXPECT_EQ(sensor_.counters().dropped, 2U);
 }
 
+TEST_F(RosDepthSensorTest, ImagesThatComeBeforeTheirIntrinsics_AreNotCountedAsLost) {
+  (void)sensor_.Open();
+  driver_.emplace(*node_);
+  for (std::uint8_t i = 1; i <= 3; ++i) driver_->SendImage(i, i);
+  driver_->SendInfo();
+  ASSERT_TRUE(sensor_.Open().ok());
+  ASSERT_TRUE(sensor_.Next(kShort_ns, frame_).ok());
+  EXPECT_EQ(MarkOf(frame_), 3);
+  EXPECT_EQ(sensor_.counters().dropped, 0U);
+}
+
 TEST_F(RosDepthSensorTest, Frame_StaysAsItIsUntilTheNextIsAskedFor) {
   Open();
   const DepthFrame held = frame_;
