@@ -71,8 +71,8 @@ test("Depth, masks and tf come in and poses go out by one node", async () => {
   assert.equal(new Set(participants.map(({ gid }) => String(gid.data))).size, 1, "one participant");
   const { node_entities_info_seq: nodes } = participants.at(-1);
   assert.deepEqual(nodes.map((node) => node.node_namespace + node.node_name), ["/together"]);
-  assert.equal(nodes[0].reader_gid_seq.length, 7, "depth, info, mask, tf, tf_static, two services");
-  assert.equal(nodes[0].writer_gid_seq.length, 11, "nine topics and two services");
+  assert.equal(nodes[0].reader_gid_seq.length, 6, "depth, info, mask, tf, tf_static, one service");
+  assert.equal(nodes[0].writer_gid_seq.length, 10, "nine topics and one service");
 });
 
 test("Messages that are of no use cost themselves alone, and are counted", async () => {

@@ -17,7 +17,7 @@ const reset = {
 test("Who comes late sees the node, the path and the surface, and can reset the object", async () => {
   const child = run(
     "--sensor", "sim:box?motion=moderate", "--rate", "realtime", "--frames", "900", "--headless", "--csv", file("late.csv"),
-    "--link", `dds:domain=${domain}&interface=lo&peer=127.0.0.1&name=robot&camera=d415_optical`,
+    "--link", `dds:domain=${domain}&interface=lo&peer=127.0.0.1&name=robot&camera=d415_optical&reset=yes`,
   );
   await sleep(1500);
   const peer = await Peer.start(join(bin, "ros2_peer"), domain);
@@ -55,6 +55,24 @@ test("Who comes late sees the node, the path and the surface, and can reset the 
   }
   assert.equal(decode(file("late_path"), "nav_msgs/Path")[0].header.frame_id, "d415_optical");
   assert.equal(decode(file("late_surface"), "visualization_msgs/Marker")[0].header.frame_id, "robot/object");
+});
+
+test("Without reset=yes nobody on the network is offered to reset the object", async () => {
+  const child = run(
+    "--sensor", "sim:box?motion=moderate", "--rate", "realtime", "--frames", "900", "--headless",
+    "--link", `dds:domain=${domain}&interface=lo&peer=127.0.0.1&name=deaf`,
+  );
+  const peer = await Peer.start(join(bin, "ros2_peer"), domain);
+  await peer.do("subscribe", "ros_discovery_info", "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_", "latched", file("deaf"));
+  await samplesOf(peer, "ros_discovery_info", 1);
+  child.kill("SIGTERM");
+  const { status, said } = await child.ended;
+  await peer.stop();
+  assert.equal(status, 0, said);
+  const [{ node_entities_info_seq: nodes }] = decode(file("deaf"), graphEntry);
+  assert.deepEqual(nodes.map((node) => node.node_name), ["deaf"]);
+  assert.equal(nodes[0].reader_gid_seq.length, 1, "the query of the distance field alone");
+  assert.equal(nodes[0].writer_gid_seq.length, 10, "nine topics and one service");
 });
 
 for (const [address, message] of [

@@ -31,7 +31,7 @@ DdsObject::DdsObject(const DdsAddress& address, ObjectChannel& channel, NewsSign
   Require(node.Advertise(prefix + "twist", RosQos::kReliable, twist_));
   Require(node.Advertise(prefix + "path", RosQos::kLatched, path_publisher_));
   Require(node.Advertise(prefix + "status", RosQos::kReliable, status_publisher_));
-  Require(node.Serve(prefix + "reset", reset_));
+  if (address.may_reset) Require(node.Serve(prefix + "reset", reset_.emplace()));
 }
 
 void DdsObject::Turn(std::int64_t now_ns) {
@@ -42,10 +42,11 @@ void DdsObject::Turn(std::int64_t now_ns) {
 }
 
 void DdsObject::ServeReset() {
-  reset_.requests.TakeAll([this](const ros::TriggerRequest& request) {
+  if (!reset_) return;
+  reset_->requests.TakeAll([this](const ros::TriggerRequest& request) {
     channel_.RequestReset();
     static const std::string done = "the next frame starts the object anew";
-    reset_.Reply({request.header, true, posix::Lend(done)});
+    reset_->Reply({request.header, true, posix::Lend(done)});
   });
 }
 

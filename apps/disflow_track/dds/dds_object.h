@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "dds/dds_clock.h"
@@ -52,7 +53,8 @@ class DdsObject {
   posix::RosPublisher<posix::ros::TwistWithCovarianceStamped> twist_;
   posix::RosPublisher<posix::ros::Path> path_publisher_;
   posix::RosPublisher<posix::ros::DiagnosticArray> status_publisher_;
-  posix::RosService<posix::ros::TriggerRequest, posix::ros::TriggerResponse> reset_;
+  /// Not there unless the address allows it.
+  std::optional<posix::RosService<posix::ros::TriggerRequest, posix::ros::TriggerResponse>> reset_;
   DdsModel model_;
 };
 

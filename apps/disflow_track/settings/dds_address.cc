@@ -133,11 +133,13 @@ class Reader {
     }
     topic = value;
   }
-  void ReadRectified(std::string_view value) {
+  void ReadRectified(std::string_view value) { sensor_.rectified = IsYes("rectified", value); }
+  void ReadReset(std::string_view value) { link_.may_reset = IsYes("reset", value); }
+  [[nodiscard]] bool IsYes(const char* key, std::string_view value) const {
     if (value != "yes" && value != "no") {
-      Refuse("rectified=" + Shown(value) + " is neither yes nor no");
+      Refuse(std::string(key) + "=" + Shown(value) + " is neither yes nor no");
     }
-    sensor_.rectified = value == "yes";
+    return value == "yes";
   }
   void ReadFrame(const char* key, std::string_view value, std::string& frame) {
     if (!IsText(value, "_-/.") || value.front() == '/') {
@@ -169,7 +171,7 @@ class Reader {
     Side side;
     void (Reader::*read)(std::string_view value);
   };
-  static constexpr std::array<Option, 12> kOptions = {{
+  static constexpr std::array<Option, 13> kOptions = {{
       {"domain", Side::kBoth, &Reader::ReadDomain},
       {"name", Side::kBoth, &Reader::ReadName},
       {"interface", Side::kBoth, &Reader::ReadInterface},
@@ -178,6 +180,7 @@ class Reader {
       {"camera", Side::kLink, &Reader::ReadCamera},
       {"world", Side::kLink, &Reader::ReadWorld},
       {"mask", Side::kLink, &Reader::ReadMask},
+      {"reset", Side::kLink, &Reader::ReadReset},
       {"depth", Side::kSensor, &Reader::ReadDepth},
       {"info", Side::kSensor, &Reader::ReadInfo},
       {"rectified", Side::kSensor, &Reader::ReadRectified},

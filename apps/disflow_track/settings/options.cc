@@ -30,7 +30,7 @@ constexpr const char* kLinksAndStatus =
     "    key: sign what is sent and take only what is signed, with the key in that file\n"
     "or ROS 2 (docs/ros2.md):\n"
     "  dds:domain=N[&name=NODE][&interface=NAME][&peer=HOST,…][&camera=FRAME][&world=FRAME]\n"
-    "      [&mask=TOPIC][&ros=humble|iron]\n"
+    "      [&mask=TOPIC][&reset=yes][&ros=humble|iron]\n"
     "\n"
     "Every input frame gives one row of the CSV; its column status is 'ok' or says why the pose "
     "is\n"

@@ -27,8 +27,8 @@ struct RecordedFrame {
 /// What a folder holds, found out without reading the images.
 struct SequenceIndex {
   CameraDescription camera;
-  bool float_depth = false;  ///< Fast-YCB's .float files; else 16-bit PNG.
-  int masked_objects = 0;    ///< 0: there are no masks.
+  bool float_depth = false;           ///< Fast-YCB's .float files; else 16-bit PNG.
+  int masked_objects = 0;             ///< 0: there are no masks.
   std::vector<RecordedFrame> frames;  ///< Never empty after success.
   /// Frames at the end that are not whole and left out, since the recording was cut short.
   std::size_t cut_frames = 0;
