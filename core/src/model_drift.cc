@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "disflow/flow/model_drift.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace disflow {

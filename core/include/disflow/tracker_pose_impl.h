@@ -70,8 +70,6 @@ Status Tracker<Limits>::Conclude(const DepthFrame& frame, Status observed, const
   TrackingMonitor::Evidence evidence;
   PoseCovariance covariance;
   if (aligned.solved) {
-    gradient_variance_rad2_ = RememberGradientVariance(gradient_variance_rad2_,
-                                                       aligned.information.gradient_variance_rad2);
     covariance = CovarianceOf(aligned, frame, estimate.inverse_depth_std_per_m);
     const ModelAgreement agreement = AgreementWith(frame, aligned.T_oc);
     estimate.conflict = agreement.conflict();
@@ -131,6 +129,8 @@ void Tracker<Limits>::Follow(StampNs stamp_ns, const Aligned& aligned,
   model_edges_.SetRounding(Remember(model_edges_.rounding(), aligned.rounding));
   field_.SetGeneration(aligned.generation + 1.0F);
   registered_covariance_ = covariance.reported;
+  gradient_variance_rad2_ =
+      RememberGradientVariance(gradient_variance_rad2_, aligned.information.gradient_variance_rad2);
   twist_unobserved_ = covariance.twist_unobserved;
   estimate.pose_covariance = covariance.reported;
   estimate.twist_covariance = twist_filter_.twist_covariance() + twist_unobserved_;
@@ -208,7 +208,8 @@ typename Tracker<Limits>::PoseCovariance Tracker<Limits>::CovarianceOf(
   constexpr float kLongest_s = 0.6F;  // a turn may then be anything
   const float least_gradient_std = config_.registration.gradient_std_rad;
   RegistrationInformation information = aligned.information;
-  information.gradient_variance_rad2 = gradient_variance_rad2_;
+  information.gradient_variance_rad2 =
+      RememberGradientVariance(gradient_variance_rad2_, information.gradient_variance_rad2);
   const PoseUncertainty uncertainty = FindPoseUncertainty(information, least_gradient_std);
   // From frame to frame the model errs alike.
   information.gradient_variance_rad2 = 0.0F;
