@@ -3,7 +3,6 @@
 
 #include <string_view>
 
-#include "dds/dds_motion.h"
 #include "program/exit_status.h"
 
 namespace disflow::apps {
@@ -52,7 +51,7 @@ void DdsInputs::TakeMask(const ros::Image& image, const DdsClock& clock) {
   const bool is_mask = encoding == "mono8" || encoding == "8UC1";
   if (!clock.known()) return;
   // What is no mask is told as one of a wrong size, with nothing in it.
-  masks_->Put(clock.FromRos(RosNanoseconds(image.header.stamp)), is_mask ? image.width : 0,
+  masks_->Put(clock.FromRos(posix::RosNanoseconds(image.header.stamp)), is_mask ? image.width : 0,
               is_mask ? image.height : 0, image.step, {image.data._buffer, image.data._length});
 }
 

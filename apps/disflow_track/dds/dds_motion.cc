@@ -10,8 +10,6 @@ namespace {
 
 namespace ros = posix::ros;
 
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
-
 template <class Out>
 Out Make3(const Vec3& v) noexcept {
   return {static_cast<double>(v.x()), static_cast<double>(v.y()), static_cast<double>(v.z())};
@@ -40,17 +38,8 @@ void Fill(const Mat6& covariance, double (&out)[36]) noexcept {
 
 }  // namespace
 
-ros::Time RosTime(std::int64_t ros_ns) noexcept {
-  return {static_cast<std::int32_t>(ros_ns / kSecond_ns),
-          static_cast<std::uint32_t>(ros_ns % kSecond_ns)};
-}
-
-std::int64_t RosNanoseconds(const ros::Time& time) noexcept {
-  return std::int64_t{time.sec} * kSecond_ns + std::int64_t{time.nanosec};
-}
-
 ros::Header RosHeader(std::int64_t ros_ns, const std::string& frame) noexcept {
-  return {RosTime(ros_ns), posix::Lend(frame)};
+  return {posix::RosTime(ros_ns), posix::Lend(frame)};
 }
 
 ros::Odometry MakeRosOdometry(const Estimate& estimate, std::int64_t ros_ns,

@@ -19,9 +19,6 @@ struct DdsFrames {
   std::string world;  ///< Empty: none.
 };
 
-[[nodiscard]] posix::ros::Time RosTime(std::int64_t ros_ns) noexcept;
-/// @return Nanoseconds since 1970.
-[[nodiscard]] std::int64_t RosNanoseconds(const posix::ros::Time& time) noexcept;
 [[nodiscard]] posix::ros::Header RosHeader(std::int64_t ros_ns, const std::string& frame) noexcept;
 
 /// Pose in the camera's frame; twist in the object's, as nav_msgs/Odometry wants it.

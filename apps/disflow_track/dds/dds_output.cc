@@ -10,6 +10,7 @@
 #include "dds/dds_inputs.h"
 #include "dds/dds_object.h"
 #include "disflow/posix/monotonic_clock.h"
+#include "input/ros_node_options.h"
 #include "program/exit_status.h"
 #include "settings/dds_address.h"
 
@@ -25,7 +26,8 @@ class DdsPublisher {
     if (node_ && node_->options().network.domain == address.domain) {
       address.name = node_->options().name;  // which the sensor's address may have said
     } else {
-      OpenNode(address);
+      node_ = std::make_shared<posix::RosNode>();
+      RequireLink(node_->Open(NodeOptions(address)));
     }
     RequireLink(node_->Advertise("/tf", posix::RosQos::kReliable, transforms_));
     for (ObjectChannel* const channel : channels) {
@@ -60,13 +62,6 @@ class DdsPublisher {
   static constexpr int kTurns = 75;
   static constexpr std::chrono::milliseconds kTurn{20};
   static constexpr std::chrono::milliseconds kSettle{250};
-
-  void OpenNode(const DdsAddress& address) {
-    node_ = std::make_shared<posix::RosNode>();
-    RequireLink(node_->Open({.network = {address.domain, address.interface, address.peers},
-                             .name = address.name,
-                             .before_iron = address.before_iron}));
-  }
 
   void RequireLink(const hal::Fault& fault) const {
     if (!fault.ok()) throw Failure(kOutputFailed, "link '" + uri_ + "': " + fault.message);

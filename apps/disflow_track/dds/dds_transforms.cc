@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "dds/dds_motion.h"
-
 namespace disflow::apps {
 namespace {
 
@@ -26,7 +24,7 @@ void DdsTransforms::Add(const posix::ros::TransformStamped& message, bool fixed)
   if (!(norm > 0.9 && norm < 1.1)) return;
   Link link{FrameName(message.header.frame_id),
             {q, Mat<double, 3>(translation.x, translation.y, translation.z)},
-            RosNanoseconds(message.header.stamp),
+            posix::RosNanoseconds(message.header.stamp),
             fixed};
   const std::string child = FrameName(message.child_frame_id);
   if (!link.T_parent_child.IsFinite() || child.empty() || link.parent.empty()) return;

@@ -2,6 +2,7 @@
 #include "input/ros_sensor.h"
 
 #include "disflow/posix/dds/ros_depth_sensor.h"
+#include "input/ros_node_options.h"
 #include "program/exit_status.h"
 #include "program/stop_signal.h"
 #include "settings/dds_address.h"
@@ -38,12 +39,8 @@ void AwaitFirstImage(hal::DepthSensor& sensor, std::uint32_t wait_s, Console& co
 std::shared_ptr<posix::RosNode> OpenRosSensor(const Options& options, host::Sensor& sensor,
                                               Console& console) {
   const DdsSensorAddress address = ParseDdsSensorAddress(options.sensor);
-  const DdsNodeAddress place = SensorNode(address, options.dds_link);
   auto node = std::make_shared<posix::RosNode>();
-  Require(node->Open({.network = {place.domain, place.interface, place.peers},
-                      .name = place.name,
-                      .before_iron = place.before_iron}),
-          kInputFailed);
+  Require(node->Open(NodeOptions(SensorNode(address, options.dds_link))), kInputFailed);
   posix::RosDepthSensor::Options topics;
   topics.depth_topic = address.depth_topic;
   topics.info_topic =

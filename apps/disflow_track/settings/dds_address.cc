@@ -5,6 +5,7 @@
 #include <array>
 #include <charconv>
 
+#include "disflow/posix/shown_text.h"
 #include "program/exit_status.h"
 #include "settings/refusal.h"
 
@@ -154,12 +155,8 @@ class Reader {
     node_.before_iron = value == "humble";
   }
 
-  /// What a terminal can show of text from outside.
   [[nodiscard]] static std::string Shown(std::string_view text) {
-    std::string shown(text.substr(0, kMaxText));
-    std::replace_if(
-        shown.begin(), shown.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-    return shown;
+    return posix::ShownText(text, kMaxText);
   }
 
   [[noreturn]] void Refuse(const std::string& what) const {

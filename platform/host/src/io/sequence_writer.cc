@@ -125,9 +125,9 @@ hal::Fault SequenceWriter::WriteFrame(const DepthFrame& frame) {
 
 /// Nothing as long as no frame has one.
 hal::Fault SequenceWriter::WriteWorldPose(const DepthFrame& frame) {
-  if (!frame.has_T_wc && !world_poses_.is_open()) return {};
   std::string line;
   if (!world_poses_.is_open()) {
+    if (!frame.has_T_wc) return {};
     for (int i = 0; i < frames_; ++i) line += std::string(kNoWorldPose) + '\n';
   }
   line += frame.has_T_wc ? FormatPose(frame.T_wc.Cast<double>()) : kNoWorldPose;

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "disflow/posix/dds/ros_depth_decoder.h"
+#include "disflow/posix/shown_text.h"
 
 namespace disflow::posix {
 namespace {
@@ -15,6 +15,7 @@ using hal::Fault;
 using hal::MakeFault;
 
 constexpr std::string_view kCompressedDepth = "/compressedDepth";
+constexpr std::size_t kMostShown = 48;
 
 /// Models that are a pinhole where all coefficients are 0; a fisheye's never is.
 bool IsPinholeModel(std::string_view model) noexcept {
@@ -58,7 +59,8 @@ Fault ReadCameraInfo(const RosCameraInfo& info, bool rectified,
                      "the lens distorts (%s, first coefficient %g) and the images are not "
                      "rectified: subscribe to the rectified topic (image_proc makes one), or say "
                      "rectified=yes if they are",
-                     ShownText(info.distortion_model).c_str(), info.d.empty() ? 0.0 : info.d[0]);
+                     ShownText(info.distortion_model, kMostShown).c_str(),
+                     info.d.empty() ? 0.0 : info.d[0]);
   }
   RosIntrinsics read;
   if (const Fault fault = ReadSize(info, read); !fault.ok()) return fault;

@@ -5,10 +5,10 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <string>
 
 #include "disflow/hal/little_endian.h"
 #include "disflow/host/image_limits.h"
+#include "disflow/posix/shown_text.h"
 
 namespace disflow::posix {
 namespace {
@@ -18,6 +18,8 @@ using hal::MakeFault;
 
 /// An enumeration and two floats ahead of the PNG, little endian as all that ROS runs on.
 constexpr std::size_t kParameterBytes = 12;
+/// Of a text in a message, so that the rest of it has room.
+constexpr std::size_t kMostShown = 48;
 
 bool FormatOf(std::string_view encoding, DepthFormat& format) noexcept {
   const bool is_float = encoding == "32FC1";
@@ -28,7 +30,7 @@ bool FormatOf(std::string_view encoding, DepthFormat& format) noexcept {
 Fault NoDepth(std::string_view encoding) {
   return MakeFault(Status::kUnsupported,
                    "encoding '%s' is no depth; 16UC1 and 32FC1 are: is this the depth topic?",
-                   ShownText(encoding).c_str());
+                   ShownText(encoding, kMostShown).c_str());
 }
 
 std::string_view Trimmed(std::string_view text) noexcept {
@@ -65,7 +67,7 @@ Fault ReadFormat(std::string_view text, DepthFormat& format) {
   return MakeFault(Status::kUnsupported,
                    "format '%s' cannot be read; set the publisher's parameter "
                    "<topic>.compressedDepth.format to png",
-                   ShownText(text).c_str());
+                   ShownText(text, kMostShown).c_str());
 }
 
 /// Of inverse depth, quantised: depth = a / (value - b).
@@ -81,14 +83,6 @@ struct Quantisation {
 };
 
 }  // namespace
-
-std::string ShownText(std::string_view text) {
-  constexpr std::size_t kMost = 48;
-  std::string shown(text.substr(0, kMost));
-  std::replace_if(
-      shown.begin(), shown.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-  return shown;
-}
 
 Fault RosDepthDecoder::CheckSize(std::uint32_t width_px, std::uint32_t height_px) const noexcept {
   if (width_px == 0 || height_px == 0) {

@@ -19,7 +19,7 @@ Fault ReadStamp(const ros::Header& header, StampNs& stamp_ns) {
                           "header.stamp is %d.%09u, so nobody knows when it was taken", time.sec,
                           time.nanosec);
   }
-  stamp_ns = StampNs{time.sec} * kNsPerS + time.nanosec;
+  stamp_ns = RosNanoseconds(time);
   return {};
 }
 

@@ -6,7 +6,6 @@
 #include <string>
 
 #include "dds/dds_clock.h"
-#include "dds/dds_motion.h"
 #include "disflow/hal/camera_pose_history.h"
 
 namespace disflow::apps {
@@ -25,7 +24,7 @@ class Tf {
   void Say(std::string parent, std::string child, std::int64_t ros_ns, double x_m,
            bool fixed = false) {
     ros::TransformStamped message{};
-    message.header.stamp = RosTime(ros_ns);
+    message.header.stamp = posix::RosTime(ros_ns);
     message.header.frame_id = parent.data();
     message.child_frame_id = child.data();
     message.transform.translation.x = x_m;

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <span>
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -62,8 +61,5 @@ class RosDepthDecoder {
   host::GrayImage picture_;
   std::vector<float> metres_;
 };
-
-/// What a terminal can show of a text from the network.
-[[nodiscard]] std::string ShownText(std::string_view text);
 
 }  // namespace disflow::posix

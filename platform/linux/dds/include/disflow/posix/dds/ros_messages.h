@@ -3,6 +3,7 @@
 
 #include <ros2.h>
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -69,6 +70,15 @@ template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::QueryResponse
 /// both directions.
 [[nodiscard]] inline char* Lend(const std::string& text) noexcept {
   return const_cast<char*>(text.c_str());
+}
+
+/// @param ros_ns Since 1970, not negative.
+[[nodiscard]] inline ros::Time RosTime(std::int64_t ros_ns) noexcept {
+  return {static_cast<std::int32_t>(ros_ns / 1'000'000'000),
+          static_cast<std::uint32_t>(ros_ns % 1'000'000'000)};
+}
+[[nodiscard]] inline std::int64_t RosNanoseconds(const ros::Time& time) noexcept {
+  return std::int64_t{time.sec} * 1'000'000'000 + std::int64_t{time.nanosec};
 }
 
 /// A text of a message that was received; a writer may have left it out.
