@@ -35,7 +35,8 @@ struct Sampler {
 template <class L>
 struct Scratch {
   static constexpr std::size_t kBytes =
-      sizeof(disflow::StageScratch<disflow::Segmenter<L>, disflow::SurfaceSampler<L>>);
+      sizeof(disflow::StageScratch<disflow::Segmenter<L>, disflow::SurfaceSampler<L>,
+                                   disflow::Registration<L>>);
 };
 template <class L>
 struct Samples {
@@ -86,17 +87,17 @@ int main() {
   std::printf("| %-44s | %9s | %9s | %9s |\n", "bytes", "Micro", "Edge", "Dense");
   std::printf("|---|---:|---:|---:|\n");
   PrintPart<ObjectMask>("object mask");
-  PrintPart<Scratch>("scratch: segmentation, then pixel blocks");
+  PrintPart<Scratch>("scratch: segmentation, blocks, registration");
   PrintPart<Samples>("surface samples of the frame");
   PrintPart<FreeSpace>("views of the free space around the object");
   PrintPart<Edges>("occluding edges: frame and model");
   PrintPart<Octree>("octree");
   PrintPart<Clusters>("clusters with their local GPs");
   PrintPart<Gp>("GP training workspace");
-  PrintPart<Registration>("registration");
   PrintPart<Whole>("**Tracker, all of the above and the rest**");
   PrintPart<Segmenter>("segmentation (is in the scratch)");
   PrintPart<Sampler>("pixel blocks (are in the scratch)");
+  PrintPart<Registration>("registration (is in the scratch)");
   PrintPart<Cluster>("one cluster (is in the above)");
   PrintPart<Surface>("workspace for surface extraction (optional)");
   return 0;

@@ -74,7 +74,9 @@ int FindNearestEdge(std::span<const ModelEdge> edges, const EdgePoint& point,
   float nearest_squared = radius_m * radius_m;
   const float least_weight = point.steady ? 0.0F : kWellKnownWeight;
   for (std::size_t i = 0; i < edges.size(); ++i) {
-    if (edges[i].weight < least_weight) continue;
+    // Most are far off along any one axis.
+    const float along_x_m = edges[i].position_m.x() - point.position_m.x();
+    if (along_x_m * along_x_m >= nearest_squared || edges[i].weight < least_weight) continue;
     const float squared = (edges[i].position_m - point.position_m).squaredNorm();
     if (squared < nearest_squared && Agree(edges[i], point)) {
       nearest_squared = squared;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "disflow/depth/image_repeats.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <cstring>
 
@@ -11,22 +10,42 @@ namespace {
 constexpr int kRowStep = 4;
 
 /// The hash FNV-1a, over words of eight bytes.
-std::uint64_t FingerprintOf(const DepthView& depth) noexcept {
-  constexpr std::uint64_t kPrime = 0x100000001B3U;
-  std::uint64_t fingerprint = 0xCBF29CE484222325U;
-  const auto bytes = static_cast<std::size_t>(depth.width_px * depth.bytes_per_pixel());
-  for (int v = 0; v < depth.height_px; v += kRowStep) {
-    const std::byte* row = depth.row(v);
-    // The last word of a row may be a part of one.
-    for (std::size_t at = 0; at < bytes; at += sizeof(std::uint64_t)) {
+class Fingerprint {
+ public:
+  [[nodiscard]] std::uint64_t value() const noexcept { return value_; }
+
+  void AddRow(const std::byte* row, std::size_t bytes) noexcept {
+    std::size_t at = 0;
+    // Copies of a size that the compiler knows are single loads.
+    for (; at + kWord <= bytes; at += kWord) {
       std::uint64_t word = 0;
-      std::memcpy(&word, row + at, std::min(sizeof word, bytes - at));
-      fingerprint = (fingerprint ^ word) * kPrime;
-      // A product carries upwards only.
-      fingerprint ^= fingerprint >> 32U;
+      std::memcpy(&word, row + at, kWord);
+      Add(word);
     }
+    if (at == bytes) return;
+    std::uint64_t rest = 0;
+    std::memcpy(&rest, row + at, bytes - at);
+    Add(rest);
   }
-  return fingerprint;
+
+ private:
+  static constexpr std::size_t kWord = sizeof(std::uint64_t);
+  static constexpr std::uint64_t kPrime = 0x100000001B3U;
+
+  void Add(std::uint64_t word) noexcept {
+    value_ = (value_ ^ word) * kPrime;
+    // A product carries upwards only.
+    value_ ^= value_ >> 32U;
+  }
+
+  std::uint64_t value_ = 0xCBF29CE484222325U;
+};
+
+std::uint64_t FingerprintOf(const DepthView& depth) noexcept {
+  Fingerprint fingerprint;
+  const auto bytes = static_cast<std::size_t>(depth.width_px * depth.bytes_per_pixel());
+  for (int v = 0; v < depth.height_px; v += kRowStep) fingerprint.AddRow(depth.row(v), bytes);
+  return fingerprint.value();
 }
 
 }  // namespace

@@ -6,17 +6,39 @@
 
 namespace disflow {
 
-void NormalEquations::Add(const Vec3& lever_m, const Vec3& gradient, float residual_m, float weight,
-                          float per_radius) noexcept {
-  Vec6 j;
-  j.head<3>() = gradient;
-  j.tail<3>() = lever_m.cross(gradient);
-  h.noalias() += weight * j * j.transpose();
-  b.noalias() += (weight * residual_m) * j;
-  if (per_radius == 0.0F) return;
-  h_radius.noalias() += (weight * per_radius) * j;
-  h_radius_radius += weight * per_radius * per_radius;
-  b_radius += weight * per_radius * residual_m;
+void NormalSums::Add(const Vec3& lever_m, const Vec3& gradient, float residual_m, float weight,
+                     float per_radius) noexcept {
+  const Vec3 turning = lever_m.cross(gradient);
+  const Mat<float, 4, 1> head(gradient.x(), gradient.y(), gradient.z(), turning.x());
+  const Mat<float, 4, 1> tail(turning.y(), turning.z(), per_radius, residual_m);
+  const Mat<float, 4, 1> place(lever_m.x(), lever_m.y(), lever_m.z(), 1.0F);
+  const Mat<float, 4, 1> weighted_head = weight * head;
+  const Mat<float, 4, 1> weighted_tail = weight * tail;
+  const Mat<float, 4, 1> weighted_place = weight * place;
+  for (int k = 0; k < 4; ++k) {
+    first_.col(k).head<4>() += head[k] * weighted_head;
+    first_.col(k).tail<4>() += head[k] * weighted_tail;
+    second_.col(k) += tail[k] * weighted_tail;
+    moments_.col(k) += place[k] * weighted_place;
+  }
+}
+
+NormalEquations& NormalEquations::operator+=(const NormalSums& sums) noexcept {
+  Mat<float, 8, 8> all;
+  all.leftCols<4>() = sums.first_;
+  all.topRightCorner<4, 4>() = sums.first_.bottomRows<4>().transpose();
+  all.bottomRightCorner<4, 4>() = sums.second_;
+  constexpr int kRadius = 6;
+  constexpr int kResidual = 7;
+  h += all.topLeftCorner<6, 6>();
+  b += all.col(kResidual).head<6>();
+  h_radius += all.col(kRadius).head<6>();
+  h_radius_radius += all(kRadius, kRadius);
+  b_radius += all(kRadius, kResidual);
+  moment_0 += sums.moments_(3, 3);
+  moment_1_m += sums.moments_.col(3).head<3>();
+  moment_2_m2 += sums.moments_.topLeftCorner<3, 3>();
+  return *this;
 }
 
 void NormalEquations::AddRadiusPrior(float deviation_m, float variance_m2) noexcept {
@@ -41,12 +63,6 @@ float NormalEquations::RadiusVariance(const NormalEquations& pose) const noexcep
   if (!solver.ok()) return variance_m2;
   const Vec6 per_pose = h_radius / h_radius_radius;
   return variance_m2 + per_pose.dot(solver.Solve(per_pose));
-}
-
-void NormalEquations::AddMoments(const Vec3& lever_m, float weight) noexcept {
-  moment_0 += weight;
-  moment_1_m += weight * lever_m;
-  moment_2_m2 += weight * lever_m * lever_m.transpose();
 }
 
 Mat6 NormalEquations::Isotropic() const noexcept {

@@ -42,7 +42,7 @@ float ResidualSums::rms_m() const noexcept {
 }
 
 void ResidualSums::Add(const Residual& residual, const ResidualWeighting& weighting,
-                       const Vec3& center_m, NormalEquations& equations) noexcept {
+                       const Vec3& center_m) noexcept {
   const RegistrationConfig& config = weighting.config;
   switch (Gate(residual, config)) {
     case ResidualStatus::kUnmatched:
@@ -62,16 +62,15 @@ void ResidualSums::Add(const Residual& residual, const ResidualWeighting& weight
   }
   // d / |grad d| is the distance to first order. |grad d| < 1 tells how little is known: the
   // gradient weighting of section V-E.
-  const float residual_m = residual.distance_m / residual.gradient_norm;
+  const float per_norm = 1.0F / residual.gradient_norm;
+  const float residual_m = per_norm * residual.distance_m;
   const float sigma_m = std::sqrt(residual.variance_m2);
   const float robust =
       GemanMcClure(residual_m, std::fmax(weighting.scale_m, config.robust_scale_sigmas * sigma_m));
   const float row_weight = weighting.trust * robust * std::fmin(residual.gradient_norm, 1.0F) /
                            (residual.variance_m2 + BlurVariance(weighting.scale_m));
-  const Vec3 lever_m = residual.point_m - center_m;
-  equations.Add(lever_m, residual.gradient / residual.gradient_norm, residual_m, row_weight,
-                residual.per_radius / residual.gradient_norm);
-  equations.AddMoments(lever_m, row_weight);
+  normals.Add(residual.point_m - center_m, per_norm * residual.gradient, residual_m, row_weight,
+              per_norm * residual.per_radius);
   weighted_square_m2 += robust * residual_m * residual_m;
   weight += robust;
   weighted_generation += robust * residual.generation;

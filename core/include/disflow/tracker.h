@@ -153,10 +153,9 @@ class Tracker {
 
   typename Segmenter<Limits>::Mask object_mask_;
   MaskOverrun<typename Segmenter<Limits>::Mask> overrun_;
-  StageScratch<Segmenter<Limits>, SurfaceSampler<Limits>> scratch_;
+  StageScratch<Segmenter<Limits>, SurfaceSampler<Limits>, Registration<Limits>> scratch_;
   typename SurfaceSampler<Limits>::Samples samples_;
   typename Registration<Limits>::Edges edges_;
-  Registration<Limits> registration_;
   Field field_;
   EdgeMap<Limits::kMaxModelEdges> model_edges_;
   SeenSpace<Limits::kMaxSeenViews, Limits::kSeenCells> seen_;

@@ -25,24 +25,27 @@ typename Tracker<Limits>::Aligned Tracker<Limits>::Register(const DepthFrame& fr
                                                             Estimate& estimate) noexcept {
   // Starting poses are compared on a part of the samples: they are many and need not be precise.
   const EveryNth some(samples_, PoseSearch<Limits>::kPoints);
-  registration_.SetObservations(some, edges_);
+  auto& registration = scratch_.template Begin<Registration<Limits>>();
+  registration.SetObservations(some, edges_);
   const PoseSearchPrior prior = SearchPrior(frame.stamp_ns);
   const auto conflict = [&](const PoseObjectFromCamera& T_oc) {
     return AgreementWith(frame, T_oc).conflict();
   };
   const auto start =
-      PoseSearch<Limits>(registration_, field_, model_edges_, config_.registration, prior)
+      PoseSearch<Limits>(registration, field_, model_edges_, config_.registration, prior)
           .Find(conflict);
-  registration_.SetObservations(samples_, edges_);
+  registration.SetObservations(samples_, edges_);
   Aligned aligned =
-      registration_.Align(field_, model_edges_, config_.registration, start.T_oc, start.T_expected,
-                          start.robust_scale, config_.registration.iterations);
+      registration.Align(field_, model_edges_, config_.registration, start.T_oc, start.T_expected,
+                         start.robust_scale, config_.registration.iterations);
   estimate.hypotheses = static_cast<std::uint8_t>(start.tried);
   estimate.iterations = static_cast<std::uint8_t>(aligned.iterations);
   estimate.inliers = static_cast<std::uint16_t>(aligned.inliers);
   estimate.edge_inliers = static_cast<std::uint16_t>(aligned.edge_inliers);
   estimate.rms_m = aligned.rms_m;
-  estimate.score = registration_.Score(field_, config_.registration, aligned.T_oc);
+  if (aligned.solved) {
+    estimate.score = registration.ScoreOfAligned(field_, config_.registration, aligned.T_oc);
+  }
   estimate.rejected.residuals_unmatched = static_cast<std::uint32_t>(aligned.unmatched);
   estimate.rejected.residuals_truncated = static_cast<std::uint32_t>(aligned.truncated);
   estimate.rejected.residuals_normal_mismatch = static_cast<std::uint32_t>(aligned.normal_mismatch);
@@ -80,7 +83,7 @@ Status Tracker<Limits>::Conclude(const DepthFrame& frame, Status observed, const
         .conflict = agreement.conflict(),
         .visible = agreement.visible(),
         .inliers = aligned.inliers,
-        .points = registration_.size(),
+        .points = aligned.points,
         .position_std_m = std::sqrt(covariance.reported.diagonal().template head<3>().maxCoeff()),
         .rotation_std_rad =
             std::sqrt(covariance.reported.diagonal().template tail<3>().maxCoeff())};
@@ -96,7 +99,7 @@ Status Tracker<Limits>::Conclude(const DepthFrame& frame, Status observed, const
   const bool recognised =
       evidence.in_view && !near && monitor_.Recognises(evidence) &&
       TurnBetween(T_oc_.rotation(), aligned.T_oc.rotation()).norm() <= kFarthestRecognised_rad;
-  const bool found_again = recognition_.Confirm(recognised, aligned.T_oc, registration_.center_c());
+  const bool found_again = recognition_.Confirm(recognised, aligned.T_oc, aligned.center_c);
   evidence.registered = followed || found_again;
   monitor_.Update(evidence, frame.stamp_ns);
   if (evidence.registered) {
@@ -222,7 +225,7 @@ typename Tracker<Limits>::PoseCovariance Tracker<Limits>::CovarianceOf(
   const float since_s = Seconds(SpanNs(observed_ns_, frame.stamp_ns));
   const float unobserved_s = std::min(since_s, kLongest_s);
 
-  const float depth_m = registration_.center_c().z();
+  const float depth_m = aligned.center_c.z();
   const PlacementScale placement{.pixel_m = depth_m / frame.camera.fx_px,
                                  .depth_noise_m = inverse_depth_std_per_m * depth_m * depth_m};
 

@@ -45,8 +45,8 @@ TEST(EdgeResiduals, PointNearAKnownEdge_IsMatchedWhetherSteadyOrNot) {
     Residuals::Edges edges;
     ASSERT_TRUE(edges.push_back(PointAt(0.001F, steady)));
     Residuals residuals(model, edges, config);
-    for (const bool reuse : {false, true}) {
-      const Residual residual = residuals.At(0, PoseObjectFromCamera(), kScale_m, reuse);
+    for (const Matching matching : {Matching::kSearch, Matching::kKeep, Matching::kLinear}) {
+      const Residual residual = residuals.At(0, PoseObjectFromCamera(), kScale_m, matching);
       EXPECT_EQ(residual.status, ResidualStatus::kMatched);
       EXPECT_NEAR(residual.distance_m, 0.001F, 1e-5F);
     }
@@ -60,10 +60,10 @@ TEST(EdgeResiduals, PointFarFromAllEdges_IsMissedOnlyIfSteady) {
   ASSERT_TRUE(edges.push_back(PointAt(0.1F, true)));
   ASSERT_TRUE(edges.push_back(PointAt(0.1F, false)));
   Residuals residuals(model, edges, config);
-  for (const bool reuse : {false, true}) {
-    EXPECT_EQ(residuals.At(0, PoseObjectFromCamera(), kScale_m, reuse).status,
+  for (const Matching matching : {Matching::kSearch, Matching::kKeep, Matching::kLinear}) {
+    EXPECT_EQ(residuals.At(0, PoseObjectFromCamera(), kScale_m, matching).status,
               ResidualStatus::kUnmatched);
-    EXPECT_EQ(residuals.At(1, PoseObjectFromCamera(), kScale_m, reuse).status,
+    EXPECT_EQ(residuals.At(1, PoseObjectFromCamera(), kScale_m, matching).status,
               ResidualStatus::kUnexpected);
   }
 }

@@ -57,27 +57,29 @@ TEST(Lever, IsTheRootMeanSquareDistance_WhicheverWayTheGradientsPoint) {
   std::mt19937 random(5);
   std::uniform_real_distribution<float> place(-0.1F, 0.1F);
   for (int round = 0; round < 20; ++round) {
-    NormalEquations equations;
+    NormalSums sums;
     float weight = 0.0F;
     float moment_m2 = 0.0F;
     for (int i = 0; i < 50; ++i) {
       const Vec3 x_m(place(random), place(random), place(random));
       const Vec3 gradient = Vec3(place(random), place(random), place(random)).normalized();
       const float w = 1e4F * (0.2F + place(random));
-      equations.Add(x_m, gradient, 0.0F, w);
-      equations.AddMoments(x_m, w);
+      sums.Add(x_m, gradient, 0.0F, w);
       weight += w;
       moment_m2 += w * x_m.squaredNorm();
     }
+    NormalEquations equations;
+    equations += sums;
     const float lever_m = LeverOf({equations.h, equations.Isotropic() - equations.h});
     EXPECT_NEAR(lever_m, std::sqrt(moment_m2 / weight), 1e-3F * lever_m);
   }
 }
 
 TEST(Lever, OfASinglePoint_IsNotZero) {
+  NormalSums sums;
+  sums.Add(Vec3::Zero(), Vec3::UnitZ(), 0.0F, 1.0F);
   NormalEquations equations;
-  equations.Add(Vec3::Zero(), Vec3::UnitZ(), 0.0F, 1.0F);
-  equations.AddMoments(Vec3::Zero(), 1.0F);
+  equations += sums;
   EXPECT_GT(LeverOf({equations.h, equations.Isotropic() - equations.h}), 0.0F);
 }
 

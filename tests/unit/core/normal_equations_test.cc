@@ -29,13 +29,14 @@ class JointProblem {
       const float per_radius = i % 2 == 0 ? 0.3F * any(random) : 0.0F;
       const float residual_m = 0.002F * any(random);
       const float weight = 1e6F * (1.5F + any(random));
-      equations_.Add(lever_m, gradient, residual_m, weight, per_radius);
+      sums_.Add(lever_m, gradient, residual_m, weight, per_radius);
       Vec7 j;
       j << gradient.cast<double>(), lever_m.cross(gradient).cast<double>(),
           static_cast<double>(per_radius);
       h_ += static_cast<double>(weight) * j * j.transpose();
       b_ += static_cast<double>(weight) * static_cast<double>(residual_m) * j;
     }
+    equations_ += sums_;
     equations_.AddRadiusPrior(kDeviation_m, kPriorVariance_m2);
     h_(6, 6) += 1.0 / static_cast<double>(kPriorVariance_m2);
     b_(6) += static_cast<double>(kDeviation_m) / static_cast<double>(kPriorVariance_m2);
@@ -46,6 +47,7 @@ class JointProblem {
   [[nodiscard]] Mat7 Covariance() const { return h_.inverse(); }
 
  private:
+  NormalSums sums_;
   NormalEquations equations_;
   Mat7 h_ = Mat7::Zero();
   Vec7 b_ = Vec7::Zero();
@@ -78,11 +80,13 @@ TEST(NormalEquations, VarianceOfTheRadius_IsThatWithAnUnknownPose) {
 }
 
 TEST(NormalEquations, WithoutEdges_TheRadiusStaysWhatItWas) {
-  NormalEquations equations;
+  NormalSums sums;
   for (int axis = 0; axis < 3; ++axis) {
-    equations.Add(Vec3::Zero(), Vec3::Unit(axis), 0.001F, 1e6F);
-    equations.Add(0.1F * Vec3::Unit(axis), Vec3::Unit((axis + 1) % 3), 0.001F, 1e6F);
+    sums.Add(Vec3::Zero(), Vec3::Unit(axis), 0.001F, 1e6F);
+    sums.Add(0.1F * Vec3::Unit(axis), Vec3::Unit((axis + 1) % 3), 0.001F, 1e6F);
   }
+  NormalEquations equations;
+  equations += sums;
   equations.AddRadiusPrior(0.0F, kPriorVariance_m2);
   const NormalEquations pose = equations.WithoutRadius();
   EXPECT_EQ(pose.h, equations.h);

@@ -30,7 +30,7 @@ void RemoveLeaf(const OctreeCell& cell, Tree& tree) {
   const Handle leaf = tree.FindLeaf(cell);
   ASSERT_NE(leaf, kNoHandle);
   tree.set_head(leaf, kNoHandle);
-  tree.Prune(leaf);
+  tree.Prune(leaf, cell);
 }
 
 /// Cells around the middle of the tree, where all levels meet, and at its border.
@@ -136,7 +136,7 @@ TEST(Octree, FacetsThatRunOut_LeaveAHoleUntilOthersAreFreed) {
   tree.UpdateFacets(LonelyCell(3), tree.CellMin(LonelyCell(3)), up, -1.0F, 0.7F);
   const Handle leaf = tree.FindLeaf(LonelyCell(3));
   tree.set_head(leaf, kNoHandle);
-  tree.Prune(leaf);
+  tree.Prune(leaf, LonelyCell(3));
   add(kCells);
   EXPECT_TRUE(has_facet(kCells));
   EXPECT_FALSE(has_facet(3));

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 namespace disflow {
@@ -33,6 +34,26 @@ TEST(PinholeCamera, Axes_AreRightDownForward) {
   EXPECT_FLOAT_EQ(right.y(), kCamera.cy_px);
   EXPECT_FLOAT_EQ(down.x(), kCamera.cx_px);
   EXPECT_FLOAT_EQ(down.y(), kCamera.cy_px + 0.1F * kCamera.fy_px);
+}
+
+TEST(PixelAt, IsTheNearestPixel_HalvesAwayFromZero) {
+  for (int i = -4000; i <= 4000; ++i) {
+    // Halves, and the numbers next to them.
+    const float half = 0.5F * static_cast<float>(i);
+    for (const float px : {half, std::nextafter(half, -1e9F), std::nextafter(half, 1e9F)}) {
+      const PixelAt at(Vec2(px, -px));
+      ASSERT_EQ(at.u, std::lround(px)) << px;
+      ASSERT_EQ(at.v, std::lround(-px)) << px;
+    }
+  }
+}
+
+TEST(PixelAt, OfWhatNoImageHolds_IsOutsideOfAllImages) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  for (const float px : {kInfinity, -kInfinity, 1e20F, -1e20F, std::nanf("")}) {
+    const PixelAt at(Vec2(px, 0.0F));
+    EXPECT_TRUE(at.u < 0 || at.u > 32767) << px;
+  }
 }
 
 TEST(PinholeCamera, FartherPoint_IsNearerToThePrincipalPoint) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <random>
 #include <vector>
@@ -131,6 +132,35 @@ TEST(PixelRow, Runs_AreSetCountedAndClearedAcrossWords) {
   }
 }
 
+TEST(PixelRow, Gaps_AreTheStretchesThatAreNotMarked) {
+  std::mt19937 random(4);
+  std::bernoulli_distribution marked(0.7);
+  std::bernoulli_distribution changes(0.1);
+  for (int round = 0; round < 50; ++round) {
+    PixelRow<192> row;
+    row.Clear();
+    bool on = marked(random);
+    for (int u = 0; u < 192; ++u) {
+      if (changes(random)) on = marked(random);
+      if (on) row.SetRun(u, u + 1);
+    }
+    const int begin = round % 70;
+    const int end = 192 - round;
+    std::vector<bool> in_gap(192, false);
+    int last = begin - 1;
+    row.ForEachGap(begin, end, [&](int u_begin, int u_end) {
+      EXPECT_GT(u_begin, last) << "a gap that goes on, or goes back";
+      EXPECT_LT(u_begin, u_end);
+      last = u_end;
+      std::fill(in_gap.begin() + u_begin, in_gap.begin() + u_end, true);
+    });
+    for (int u = 0; u < 192; ++u) {
+      const bool inside = u >= begin && u < end;
+      ASSERT_EQ(in_gap[static_cast<std::size_t>(u)], inside && !row.Test(u)) << u;
+    }
+  }
+}
+
 TEST(ErodedMask, KeepsPixelsWhoseSquareIsSet) {
   const PlainMask plain(0.97, 2);
   const Mask mask = Packed(plain);
@@ -140,7 +170,8 @@ TEST(ErodedMask, KeepsPixelsWhoseSquareIsSet) {
     for (int v = 0; v < kHeight_px; ++v) {
       std::vector<bool> set(kWidth_px, false);
       if (v >= eroded.box().v_min && v < eroded.box().v_max)
-        eroded.ForEachInRow(v, [&](int u) { set[static_cast<std::size_t>(u)] = true; });
+        for (int u = eroded.box().u_min; u < eroded.box().u_max; ++u)
+          set[static_cast<std::size_t>(u)] = eroded.RowAt(v).Test(u);
       for (int u = 0; u < kWidth_px; ++u) {
         ASSERT_EQ(set[static_cast<std::size_t>(u)], plain.AllAbout(u, v, radius))
             << u << ' ' << v << " radius " << radius;

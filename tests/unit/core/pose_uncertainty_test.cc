@@ -24,7 +24,7 @@ RegistrationInformation SeenBody(float gradient_std, float ridge = 0.0F) {
   std::normal_distribution<float> off(0.0F, gradient_std);
   std::uniform_real_distribution<float> angle(-1.2F, 1.2F);
   std::uniform_real_distribution<float> height_m(-0.05F, 0.05F);
-  NormalEquations equations;
+  NormalSums sums;
   for (int i = 0; i < 500; ++i) {
     const float a = angle(random);
     const float z_m = height_m(random);
@@ -35,9 +35,10 @@ RegistrationInformation SeenBody(float gradient_std, float ridge = 0.0F) {
     const Vec3 gradient =
         ((lid ? Vec3(Vec3::UnitZ()) : side) + Vec3(off(random), off(random), off(random)))
             .normalized();
-    equations.Add(point_m, gradient, 0.0F, 1.0F / (kSigma_m * kSigma_m));
-    equations.AddMoments(point_m, 1.0F / (kSigma_m * kSigma_m));
+    sums.Add(point_m, gradient, 0.0F, 1.0F / (kSigma_m * kSigma_m));
   }
+  NormalEquations equations;
+  equations += sums;
   return {equations.h, equations.Isotropic() - equations.h};
 }
 
@@ -90,13 +91,14 @@ TEST(PoseUncertainty, TurnOfAnOvalBody_IsObservedAndHardlyTouched) {
 }
 
 TEST(PoseUncertainty, Plane_LeavesItsTwoShiftsAndItsTurnUnobserved) {
-  NormalEquations equations;
+  NormalSums sums;
   for (int i = 0; i < 400; ++i) {
     const Vec3 point_m(0.004F * static_cast<float>(i % 20 - 10),
                        0.004F * static_cast<float>(i / 20 - 10), 0.0F);
-    equations.Add(point_m, Vec3::UnitZ(), 0.0F, 1e6F);
-    equations.AddMoments(point_m, 1e6F);
+    sums.Add(point_m, Vec3::UnitZ(), 0.0F, 1e6F);
   }
+  NormalEquations equations;
+  equations += sums;
   const PoseUncertainty uncertainty =
       FindPoseUncertainty({equations.h, equations.Isotropic() - equations.h}, kGradientStd_rad);
   ASSERT_TRUE(uncertainty.solved);

@@ -503,6 +503,23 @@ TEST(Registration, NothingToMatch_IsNotSolvedAndKeepsTheStart) {
   EXPECT_EQ(seen.Score(seen.T_oc()), 0.0F);
 }
 
+TEST(Registration, ScoreOfTheAlignedPose_IsThatOfASearchOfAllItsPoints) {
+  for (const unsigned seed : {1U, 2U, 3U}) {
+    Seen seen(OddBox(), InView());
+    seen.Look(seed);
+    seen.config().score_points = Samples::kCapacity;
+    Vec6 xi;
+    xi << 0.003F, -0.002F, 0.001F, 0.01F, 0.0F, -0.02F;
+    const auto aligned = seen.Align(seen.Off(xi));
+    ASSERT_TRUE(aligned.solved);
+    const float searched = seen.Score(aligned.T_oc);
+    const float known =
+        seen.registration().ScoreOfAligned(seen.model(), seen.config(), aligned.T_oc);
+    EXPECT_GT(known, 0.5F);
+    EXPECT_NEAR(known, searched, 0.01F) << seed;
+  }
+}
+
 TEST(Registration, MoreSamplesThanFit_AreThinnedEvenly) {
   Seen seen(OddBox(), InView());
   FixedVector<SurfaceSample, 4 * Samples::kCapacity> many;
@@ -513,7 +530,7 @@ TEST(Registration, MoreSamplesThanFit_AreThinnedEvenly) {
   }
   const EdgeRegistration::Edges no_edges;
   seen.registration().SetObservations(many, no_edges);
-  EXPECT_EQ(seen.registration().size(), Samples::kCapacity);
+  EXPECT_EQ(seen.Align(seen.T_oc()).points, Samples::kCapacity);
   EXPECT_NEAR(seen.registration().center_c().x(), 0.5F * static_cast<float>(many.kCapacity), 2.0F);
 }
 

@@ -42,7 +42,7 @@ struct Wall {
     mask->Finish();
     const DepthView view{depth_m.data(), kWidth, kHeight, 4 * kWidth, DepthFormat::kFloat32, 1.0F};
     const DepthReader reader(view, 0.1F, 10.0F);
-    sampler->Sample(reader, kCamera, *mask, config, *samples, counters);
+    sampler->Sample(reader, kCamera, ErodedMask(*mask, 0), config, *samples, counters);
     return mask->count();
   }
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "disflow/config.h"
+#include "disflow/depth/column_sums.h"
 #include "disflow/depth/depth_reader.h"
 #include "disflow/depth/inverse_depth_block.h"
 #include "disflow/depth/pixel_row.h"
@@ -132,42 +133,47 @@ class BlockGrid {
   [[nodiscard]] bool SumBlocks(const DepthReader& depth, const Mask& interior,
                                int& without_depth) noexcept {
     without_depth = 0;
-    bool fits = true;
-    const float half = 0.5F * static_cast<float>(block_px_ - 1);
-    const PixelBox& box = interior.box();
-    for (int v = box.v_min; v < box.v_max && fits; ++v) {
-      const int row = (v - origin_v_) / block_px_;
-      const float dv = static_cast<float>(v - origin_v_ - row * block_px_) - half;
-      int column = 0;
-      int u_begin = origin_u_;
-      interior.ForEachInRow(v, [&](int u) {
-        const float depth_m = depth.At(u, v);
-        if (depth_m <= 0.0F) {
-          ++without_depth;
-          return;
-        }
-        for (; u >= u_begin + block_px_; u_begin += block_px_) ++column;
-        PixelMoments* moments = FillBlock(Index(column, row));
-        if (moments == nullptr) {
-          fits = false;
-        } else {
-          moments->Add(static_cast<float>(u - u_begin) - half, dv, 1.0F / depth_m);
-        }
-      });
+    for (int row = 0; row < rows_; ++row) {
+      without_depth += SumRow(depth, interior, row);
+      for (int column = 0; column < columns_; ++column) {
+        if (!Keep(Index(column, row), sums_.Block(column))) return false;
+      }
     }
-    return fits;
+    return true;
   }
 
-  /// The sums of a block that holds pixels; null if there is no room for more of them.
-  [[nodiscard]] PixelMoments* FillBlock(std::size_t place) noexcept {
-    std::uint16_t& index = grid_[place];
-    if (index == kEmptyBlock) {
-      if (filled_ == kMaxFilledBlocks) return nullptr;
-      index = static_cast<std::uint16_t>(filled_++);
-      moments_[index] = PixelMoments{};
-      sample_of_[index] = kNoSample;
+  /// Sums up a row of blocks. @return How many of its pixels have no depth.
+  template <class Mask>
+  [[nodiscard]] int SumRow(const DepthReader& depth, const Mask& interior, int row) noexcept {
+    const PixelBox& box = interior.box();
+    const float half = 0.5F * static_cast<float>(block_px_ - 1);
+    const int v_begin = origin_v_ + row * block_px_;
+    const int v_end = std::min(v_begin + block_px_, box.v_max);
+    int without_depth = 0;
+    sums_.Start(box.width(), block_px_);
+    for (int v = v_begin; v < v_end; ++v) {
+      const auto pixels = interior.RowAt(v);
+      int wanted = box.width();
+      depth.ReadRow(v, box.u_min, box.u_max, row_m_.data());
+      pixels.ForEachGap(box.u_min, box.u_max, [&](int u_begin, int u_end) {
+        std::fill(row_m_.begin() + (u_begin - box.u_min), row_m_.begin() + (u_end - box.u_min),
+                  0.0F);
+        wanted -= u_end - u_begin;
+      });
+      without_depth += wanted - sums_.AddRow(static_cast<float>(v - v_begin) - half, row_m_);
     }
-    return &moments_[index];
+    return without_depth;
+  }
+
+  /// @return false if there is no room for more blocks that hold pixels.
+  [[nodiscard]] bool Keep(std::size_t place, const PixelMoments& sum) noexcept {
+    if (sum.n == 0.0F) return true;
+    if (filled_ == kMaxFilledBlocks) return false;
+    grid_[place] = static_cast<std::uint16_t>(filled_);
+    moments_[static_cast<std::size_t>(filled_)] = sum;
+    sample_of_[static_cast<std::size_t>(filled_)] = kNoSample;
+    ++filled_;
+    return true;
   }
 
   /// Full blocks and the partly covered ones along the outline.
@@ -179,6 +185,8 @@ class BlockGrid {
   std::array<std::uint16_t, static_cast<std::size_t>(Limits::kMaxBlocks)> grid_;
   std::array<PixelMoments, static_cast<std::size_t>(kMaxFilledBlocks)> moments_;
   std::array<std::uint16_t, static_cast<std::size_t>(kMaxFilledBlocks)> sample_of_;
+  ColumnSums<Limits::kMaxImageWidth> sums_;
+  typename ColumnSums<Limits::kMaxImageWidth>::Row row_m_;  ///< Depths of an image row.
   int filled_ = 0;
   int origin_u_ = 0;
   int origin_v_ = 0;

@@ -53,6 +53,16 @@ struct MaskView {
   [[nodiscard]] const std::uint8_t* row(int v) const noexcept {
     return data + static_cast<std::ptrdiff_t>(v) * stride_bytes;
   }
+  /// Calls visit(u) for the pixels [u_begin, u_end) of row v that show the object. @pre given()
+  template <class Visitor>
+  void ForEachIn(int v, int u_begin, int u_end, Visitor&& visit) const noexcept {
+    if (v < 0 || v >= height_px) return;
+    const std::uint8_t* const pixels = row(v);
+    const int end = u_end < width_px ? u_end : width_px;
+    for (int u = u_begin > 0 ? u_begin : 0; u < end; ++u) {
+      if (label == 0 ? pixels[u] != 0 : pixels[u] == label) visit(u);
+    }
+  }
   /// Whether a pixel shows the object; none outside the image does. @pre given()
   [[nodiscard]] bool Test(int u, int v) const noexcept {
     if (u < 0 || v < 0 || u >= width_px || v >= height_px) return false;

@@ -25,7 +25,7 @@ class DepthReader {
     } else {
       std::memcpy(&depth_m, pixel, sizeof depth_m);
     }
-    return InRangeOrZero(depth_m);
+    return InRangeOrZero(depth_m, min_m_, max_m_);
   }
 
   /// As At(), but 0 outside of the image.
@@ -39,15 +39,19 @@ class DepthReader {
     const std::byte* pixels =
         view_.row(v) + static_cast<std::ptrdiff_t>(u_begin) * view_.bytes_per_pixel();
     if (view_.format == DepthFormat::kUint16) {
+      const float unit_m = view_.unit_m;
       for (int i = 0; i < count; ++i) {
         std::uint16_t raw = 0;
         std::memcpy(&raw, pixels + 2 * i, sizeof raw);
-        depth_m[i] = static_cast<float>(raw) * view_.unit_m;
+        depth_m[i] = static_cast<float>(raw) * unit_m;
       }
     } else {
       std::memcpy(depth_m, pixels, sizeof(float) * static_cast<std::size_t>(count));
     }
-    for (int i = 0; i < count; ++i) depth_m[i] = InRangeOrZero(depth_m[i]);
+    // Copies, which the row that is written cannot overlap.
+    const float min_m = min_m_;
+    const float max_m = max_m_;
+    for (int i = 0; i < count; ++i) depth_m[i] = InRangeOrZero(depth_m[i], min_m, max_m);
   }
 
   [[nodiscard]] int width_px() const noexcept { return view_.width_px; }
@@ -55,8 +59,8 @@ class DepthReader {
 
  private:
   /// NaN fails all comparisons. Branch-free, so that compilers use vector instructions on rows.
-  [[nodiscard]] float InRangeOrZero(float depth_m) const noexcept {
-    const int usable = int{depth_m >= min_m_} & int{depth_m <= max_m_} & int{depth_m > 0.0F};
+  [[nodiscard]] static float InRangeOrZero(float depth_m, float min_m, float max_m) noexcept {
+    const int usable = int{depth_m >= min_m} & int{depth_m <= max_m} & int{depth_m > 0.0F};
     return usable != 0 ? depth_m : 0.0F;
   }
 

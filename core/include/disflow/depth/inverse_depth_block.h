@@ -14,26 +14,13 @@ namespace disflow {
 /// Sums over the pixels of one block, relative to a pixel (u0, v0) and a reference inverse depth,
 /// so that float suffices.
 struct PixelMoments {
-  float n = 0.0F;
-  float u = 0.0F, v = 0.0F, w = 0.0F;
-  float uu = 0.0F, uv = 0.0F, vv = 0.0F;
-  float uw = 0.0F, vw = 0.0F, ww = 0.0F;
-  float w_reference = 0.0F;  ///< [1/m]
-
-  void Add(float du, float dv, float inverse_depth) noexcept {
-    if (n == 0.0F) w_reference = inverse_depth;
-    const float dw = inverse_depth - w_reference;
-    n += 1.0F;
-    u += du;
-    v += dv;
-    w += dw;
-    uu += du * du;
-    uv += du * dv;
-    vv += dv * dv;
-    uw += du * dw;
-    vw += dv * dw;
-    ww += dw * dw;
-  }
+  // No initial values: thousands of blocks lie in memory that is new in every frame. PixelMoments{}
+  // holds no pixel.
+  float n;
+  float u, v, w;
+  float uu, uv, vv;
+  float uw, vw, ww;
+  float w_reference;  ///< [1/m]
 
   /// Adds another block's sums, whose origin lies (du, dv) pixels from this one's.
   void Merge(const PixelMoments& other, float du, float dv) noexcept {

@@ -11,7 +11,8 @@
 
 namespace disflow {
 
-/// The dilation of a mask by a square of (2 radius + 1) pixels.
+/// The dilation of a mask by a square of (2 radius + 1) pixels. A step of n pixels reaches all in
+/// between as well once n - 1 are filled, so that steps may double.
 /// @param source After Finish().
 /// @param out Another mask; started anew and finished.
 template <class Mask>
@@ -22,15 +23,26 @@ void Dilate(const Mask& source, int radius_px, Mask& out) noexcept {
     const int w_begin = std::max(box.u_min - radius_px, 0) / Mask::kBits;
     const int w_end =
         (std::min(box.u_max + radius_px, source.width_px()) + Mask::kBits - 1) / Mask::kBits;
+    const int v_begin = std::max(box.v_min - radius_px, 0);
     const int v_end = std::min(box.v_max + radius_px, source.height_px());
-    for (int v = std::max(box.v_min - radius_px, 0); v < v_end; ++v) {
+    const auto add = [&](int v, int v_from) {
+      for (int w = w_begin; w < w_end; ++w) out.row(v)[w] |= out.row(v_from)[w];
+    };
+    for (int v = box.v_min; v < box.v_max; ++v) {
       auto& bits = out.row(v);
-      const int last = std::min(v + radius_px, box.v_max - 1);
-      for (int r = std::max(v - radius_px, box.v_min); r <= last; ++r) {
-        for (int w = w_begin; w < w_end; ++w) bits[w] |= source.row(r)[w];
+      for (int w = w_begin; w < w_end; ++w) bits[w] = source.row(v)[w];
+      for (int reached = 0; reached < radius_px;) {
+        const int step = std::min({reached + 1, radius_px - reached, Mask::kBits - 1});
+        bits.Spread(w_begin, w_end, step);
+        reached += step;
       }
-      for (int step = 0; step < radius_px; ++step)
-        bits.Neighbours(w_begin, w_end, [](auto own, auto a, auto b) { return own | a | b; });
+    }
+    for (int reached = 0; reached < radius_px;) {
+      const int step = std::min(reached + 1, radius_px - reached);
+      // Each row from one that this step has not changed yet.
+      for (int v = v_end - 1; v >= v_begin + step; --v) add(v, v - step);
+      for (int v = v_begin; v < v_end - step; ++v) add(v, v + step);
+      reached += step;
     }
   }
   out.Finish();
@@ -87,12 +99,24 @@ class MaskBand {
   }
 
   [[nodiscard]] int tolerance_px() const noexcept { return tolerance_px_; }
-  [[nodiscard]] bool Allows(int u, int v) const noexcept { return allowed_.row(v).Test(u); }
+  /// What the tolerance allows of an image row.
+  [[nodiscard]] const typename Mask::Row& AllowedIn(int v) const noexcept {
+    return allowed_.row(v);
+  }
+
+  /// Around the given mask, as far as surface says anything of the object: within the tolerance,
+  /// and beyond it as far as it is looked for by MaskOverrun.
+  [[nodiscard]] PixelBox BoxThatMatters(const Mask& given) const noexcept {
+    const int margin_px = tolerance_px_ + std::max(reach_px(), kLeastBeyond_px);
+    return {std::max(given.box().u_min - margin_px, 0), std::max(given.box().v_min - margin_px, 0),
+            std::min(given.box().u_max + margin_px, given.width_px()),
+            std::min(given.box().v_max + margin_px, given.height_px())};
+  }
 
   /// Takes away what lies beyond the tolerance.
   void Restrict(Mask& object) const noexcept {
     for (int v = object.box().v_min; v < object.box().v_max; ++v) {
-      for (int w = 0; w < Mask::Row::kWords; ++w) object.row(v)[w] &= allowed_.row(v)[w];
+      for (int w = 0; w < object.words(); ++w) object.row(v)[w] &= allowed_.row(v)[w];
     }
   }
 
@@ -104,14 +128,18 @@ class MaskBand {
     for_each_run(
         [&](int v, int u_begin, int u_end) { overrun.pixels.row(v).SetRun(u_begin, u_end); });
     for (int v = 0; v < allowed_.height_px(); ++v) {
-      for (int w = 0; w < Mask::Row::kWords; ++w) overrun.pixels.row(v)[w] &= ~allowed_.row(v)[w];
+      for (int w = 0; w < allowed_.words(); ++w) overrun.pixels.row(v)[w] &= ~allowed_.row(v)[w];
     }
     overrun.pixels.Finish();
-    // From the band's outer border across the mask's outline, and as far again.
-    overrun.reach_px = 2 * tolerance_px_ + 1;
+    overrun.reach_px = reach_px();
   }
 
  private:
+  /// From the band's outer border across the mask's outline, and as far again.
+  [[nodiscard]] int reach_px() const noexcept { return 2 * tolerance_px_ + 1; }
+
+  /// So much more that a surface which goes on beyond an exact mask is seen to.
+  static constexpr int kLeastBeyond_px = 8;
   static constexpr int kMostTolerance_px = 64;
 
   Mask allowed_;

@@ -26,14 +26,19 @@ class ModelGate {
   void operator()(int v, int u_begin, int u_end, float* depth_m) const noexcept {
     const Vec3 start =
         prior_.T_oc.rotation() * camera_.Ray(static_cast<float>(u_begin), static_cast<float>(v));
+    // Copies, which the row that is written cannot overlap.
+    const float start_x = start.x(), start_y = start.y(), start_z = start.z();
+    const float step_x = step_.x(), step_y = step_.y(), step_z = step_.z();
+    const float offset_x_m = offset_m_.x(), offset_y_m = offset_m_.y(), offset_z_m = offset_m_.z();
+    const float half_x_m = half_m_.x(), half_y_m = half_m_.y(), half_z_m = half_m_.z();
     for (int i = 0; i < u_end - u_begin; ++i) {
       const auto u = static_cast<float>(i);
       const float z = depth_m[i];
-      const float x_m = z * (start.x() + u * step_.x()) + offset_m_.x();
-      const float y_m = z * (start.y() + u * step_.y()) + offset_m_.y();
-      const float z_m = z * (start.z() + u * step_.z()) + offset_m_.z();
-      const int inside = int{std::abs(x_m) <= half_m_.x()} & int{std::abs(y_m) <= half_m_.y()} &
-                         int{std::abs(z_m) <= half_m_.z()};
+      const float x_m = z * (start_x + u * step_x) + offset_x_m;
+      const float y_m = z * (start_y + u * step_y) + offset_y_m;
+      const float z_m = z * (start_z + u * step_z) + offset_z_m;
+      const int inside = int{std::abs(x_m) <= half_x_m} & int{std::abs(y_m) <= half_y_m} &
+                         int{std::abs(z_m) <= half_z_m};
       depth_m[i] = inside != 0 ? z : 0.0F;
     }
   }

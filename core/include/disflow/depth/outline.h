@@ -29,26 +29,45 @@ inline constexpr int kMatchingReachPx = 8;
 /// Half the width of the outline that a straight line is fitted to.
 inline constexpr int kOutlineDiskPx = 4;
 
+/// How far each row of that disk reaches to either side.
+inline constexpr auto kOutlineDiskHalfWidths = [] {
+  std::array<int, 2 * kOutlineDiskPx + 1> half_widths{};
+  constexpr int kRadius = kOutlineDiskPx;
+  for (int dv = -kRadius; dv <= kRadius; ++dv) {
+    int half = 0;
+    while ((half + 1) * (half + 1) + dv * dv <= kRadius * kRadius + kRadius) ++half;
+    half_widths[static_cast<std::size_t>(dv + kRadius)] = half;
+  }
+  return half_widths;
+}();
+inline constexpr int kOutlineDiskPixels = [] {
+  int pixels = 0;
+  for (const int half : kOutlineDiskHalfWidths) pixels += 2 * half + 1;
+  return pixels;
+}();
+
 /// Fits a line to the mask's outline within a disk.
-/// @param mask Has Test(u, v).
+/// @param mask Has ForEachIn(v, u_begin, u_end, visit), as PixelMask.
 /// @return false at corners and thin parts; `point` is undefined then.
 template <class Mask>
 [[nodiscard]] bool FitOutline(const Mask& mask, int u, int v, OutlinePoint& point) noexcept {
   constexpr int kRadius = kOutlineDiskPx;
-  Vec2 sum = Vec2::Zero();
+  int sum_u = 0;
+  int sum_v = 0;
   int inside = 0;
-  int total = 0;
   for (int dv = -kRadius; dv <= kRadius; ++dv) {
-    for (int du = -kRadius; du <= kRadius; ++du) {
-      if (du * du + dv * dv > kRadius * kRadius + kRadius) continue;
-      ++total;
-      if (!mask.Test(u + du, v + dv)) continue;
-      ++inside;
-      sum += Vec2(static_cast<float>(du), static_cast<float>(dv));
-    }
+    const int half = kOutlineDiskHalfWidths[static_cast<std::size_t>(dv + kRadius)];
+    int in_row = 0;
+    mask.ForEachIn(v + dv, u - half, u + half + 1, [&](int set_u) {
+      ++in_row;
+      sum_u += set_u - u;
+    });
+    inside += in_row;
+    sum_v += dv * in_row;
   }
+  const Vec2 sum(static_cast<float>(sum_u), static_cast<float>(sum_v));
   const float norm = sum.norm();
-  const auto area = static_cast<float>(total);
+  constexpr auto area = static_cast<float>(kOutlineDiskPixels);
   const float radius = std::sqrt(area / 3.14159265F);
   // A half disk's centroid is 4 r / (3 pi) from the centre; at corners and thin parts it is nearer.
   const float half_moment = 0.5F * area * 0.4244F * radius;

@@ -26,7 +26,7 @@ class PixelMask {
     height_px_ = height_px;
     box_ = {};
     count_ = 0;
-    for (int v = 0; v < height_px; ++v) row(v).Clear();
+    for (int v = 0; v < height_px; ++v) std::fill_n(row(v).words.begin(), words(), Word{0});
   }
 
   [[nodiscard]] Row& row(int v) noexcept { return rows_[static_cast<std::size_t>(v)]; }
@@ -47,8 +47,7 @@ class PixelMask {
   void Finish() noexcept {
     box_ = {width_px_, height_px_, 0, 0};
     count_ = 0;
-    const int words = (width_px_ + kBits - 1) / kBits;
-    for (int v = 0; v < height_px_; ++v) AddRow(row(v), v, 0, words, box_, count_);
+    for (int v = 0; v < height_px_; ++v) AddRow(row(v), v, 0, words(), box_, count_);
     if (count_ == 0) box_ = {};
   }
 
@@ -95,11 +94,17 @@ class PixelMask {
   [[nodiscard]] int count() const noexcept { return count_; }
   [[nodiscard]] int width_px() const noexcept { return width_px_; }
   [[nodiscard]] int height_px() const noexcept { return height_px_; }
+  /// Words of a row that the image reaches; the others have no meaning.
+  [[nodiscard]] int words() const noexcept { return (width_px_ + kBits - 1) / kBits; }
 
-  /// Calls visit(u) for every set pixel of row v, from left to right.
+  /// Calls visit(u) for the set pixels [u_begin, u_end) of row v, which may lie outside the image.
   template <class Visitor>
-  void ForEachInRow(int v, Visitor&& visit) const noexcept {
-    for (int w = box_.u_min / kBits; w * kBits < box_.u_max; ++w) VisitBits(row(v)[w], w, visit);
+  void ForEachIn(int v, int u_begin, int u_end, Visitor&& visit) const noexcept {
+    if (v < 0 || v >= height_px_) return;
+    const int end = std::min(u_end, width_px_);
+    for (int u = std::max(u_begin, 0); u < end; ++u) {
+      if (row(v).Test(u)) visit(u);
+    }
   }
 
   /// Calls visit(u) for every set pixel of row v one of whose four neighbours is not set, from left
@@ -202,22 +207,15 @@ class ErodedMask {
         w_end_((source.box().u_max + Mask::kBits - 1) / Mask::kBits) {
     box_ = {source.width_px(), source.height_px(), 0, 0};
     for (int v = source.box().v_min + radius_px; v < source.box().v_max - radius_px; ++v)
-      Mask::AddRow(Row(v), v, w_begin_, w_end_, box_, count_);
+      Mask::AddRow(RowAt(v), v, w_begin_, w_end_, box_, count_);
     if (count_ == 0) box_ = {};
   }
 
   [[nodiscard]] const PixelBox& box() const noexcept { return box_; }
   [[nodiscard]] int count() const noexcept { return count_; }
 
-  /// Calls visit(u) for every set pixel of row v (inside of box()), from left to right.
-  template <class Visitor>
-  void ForEachInRow(int v, Visitor&& visit) const noexcept {
-    const typename Mask::Row bits = Row(v);
-    for (int w = w_begin_; w < w_end_; ++w) Mask::VisitBits(bits[w], w, visit);
-  }
-
- private:
-  [[nodiscard]] typename Mask::Row Row(int v) const noexcept {
+  /// Row v, inside of box(); what is beside the box has no meaning.
+  [[nodiscard]] typename Mask::Row RowAt(int v) const noexcept {
     using Word = typename Mask::Word;
     typename Mask::Row bits;
     for (int w = w_begin_; w < w_end_; ++w) bits[w] = source_.row(v)[w];
@@ -230,6 +228,7 @@ class ErodedMask {
     return bits;
   }
 
+ private:
   const Mask& source_;
   int radius_px_;
   int w_begin_;

@@ -20,6 +20,13 @@ struct PixelBox {
   [[nodiscard]] int height() const noexcept { return v_max - v_min; }
 };
 
+/// What two boxes have in common; empty if that is nothing.
+[[nodiscard]] inline PixelBox Common(const PixelBox& a, const PixelBox& b) noexcept {
+  const PixelBox common{std::max(a.u_min, b.u_min), std::max(a.v_min, b.v_min),
+                        std::min(a.u_max, b.u_max), std::min(a.v_max, b.v_max)};
+  return common.empty() ? PixelBox{} : common;
+}
+
 /// One bit per pixel of an image row.
 template <int kMaxWidth>
 struct PixelRow {
@@ -39,6 +46,10 @@ struct PixelRow {
   void ClearRun(int u_begin, int u_end) noexcept {
     ForEachWord(u_begin, u_end, [this](int w, Word bits) { (*this)[w] &= ~bits; });
   }
+  /// Marks those of the pixels [u_begin, u_end) that another row has marked.
+  void AddRun(const PixelRow& other, int u_begin, int u_end) noexcept {
+    ForEachWord(u_begin, u_end, [&](int w, Word bits) { (*this)[w] |= other[w] & bits; });
+  }
   /// Marked pixels in [u_begin, u_end).
   [[nodiscard]] int CountRun(int u_begin, int u_end) const noexcept {
     int count = 0;
@@ -47,6 +58,16 @@ struct PixelRow {
     return count;
   }
   [[nodiscard]] bool Test(int u) const noexcept { return ((*this)[u / kBits] >> (u % kBits)) & 1U; }
+
+  /// visit(begin, end) for every stretch of [u_begin, u_end) whose pixels are not marked.
+  template <class Visitor>
+  void ForEachGap(int u_begin, int u_end, Visitor&& visit) const noexcept {
+    for (int u = Next<false>(u_begin, u_end); u < u_end; u = Next<false>(u, u_end)) {
+      const int begin = u;
+      u = Next<true>(begin, u_end);
+      visit(begin, u);
+    }
+  }
 
   /// Words [w_begin, w_end) of every pixel's own, its left and its right neighbour's bit, combined
   /// by `Combine`; bits outside of those words count as 0.
@@ -62,7 +83,32 @@ struct PixelRow {
     }
   }
 
+  /// Marks the pixels `step` (at most 63) to the left and to the right of marked ones as well,
+  /// within the words [w_begin, w_end).
+  void Spread(int w_begin, int w_end, int step) noexcept {
+    Word before = 0;
+    for (int w = w_begin; w < w_end; ++w) {
+      const Word own = (*this)[w];
+      const Word after = w + 1 < w_end ? (*this)[w + 1] : 0;
+      (*this)[w] = own | (own << step) | (before >> (kBits - step)) | (own >> step) |
+                   (after << (kBits - step));
+      before = own;
+    }
+  }
+
  private:
+  /// The first pixel in [u, u_end) that is marked, or is not; u_end if there is none.
+  template <bool kMarked>
+  [[nodiscard]] int Next(int u, int u_end) const noexcept {
+    while (u < u_end) {
+      const Word word = (*this)[u / kBits];
+      const Word bits = (kMarked ? word : ~word) >> (u % kBits);
+      if (bits != 0) return std::min(u + std::countr_zero(bits), u_end);
+      u += kBits - u % kBits;
+    }
+    return u_end;
+  }
+
   /// visit(index of a word, bits of it that belong to the run)
   template <class Visitor>
   static void ForEachWord(int u_begin, int u_end, Visitor&& visit) noexcept {

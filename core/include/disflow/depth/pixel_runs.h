@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 
 #include "disflow/depth/depth_reader.h"
 #include "disflow/depth/pixel_mask.h"
@@ -14,11 +15,12 @@ namespace disflow {
 
 /// Horizontal run of pixels on one continuous surface.
 struct PixelRun {
-  std::int16_t v = 0;
-  std::int16_t u_begin = 0;
-  std::int16_t u_end = 0;
-  std::uint16_t parent = 0;  ///< Union-find link; a root links to itself.
-  std::uint16_t pixels = 0;  ///< At a root: of the component, saturating; then its number.
+  // No initial values: thousands of runs lie in memory that is new in every frame.
+  std::int16_t v;
+  std::int16_t u_begin;
+  std::int16_t u_end;
+  std::uint16_t parent;  ///< Union-find link; a root links to itself.
+  std::uint16_t pixels;  ///< At a root: of the component, saturating; then its number.
 
   [[nodiscard]] int length() const noexcept { return u_end - u_begin; }
 };
@@ -50,7 +52,7 @@ class PixelRuns {
     components_.clear();
     int above_begin = 0;
     int above_end = 0;
-    for (int v = box.v_min; v < box.v_max; ++v) {
+    for (int v = box.v_min; v < box.v_max && !box.empty(); ++v) {
       current_ = 1 - current_;
       depth.ReadRow(v, box.u_min, box.u_max, row_m().data());
       gate(v, box.u_min, box.u_max, row_m().data());
@@ -102,23 +104,52 @@ class PixelRuns {
     return std::abs(a_m - b_m) <= jump_ratio * std::min(a_m, b_m);
   }
 
+  /// Where in a row something begins or ends: flags of pixels that do not go on with what is to
+  /// their left. Most pixels do, and are looked at by vector instructions alone.
+  void FlagChanges(int width, float jump_ratio) noexcept {
+    const Row& depths_m = row_m();
+    changes_[0] = depths_m[0] > 0.0F ? 1 : 0;
+    for (int i = 1; i < width; ++i) {
+      const float left_m = depths_m[static_cast<std::size_t>(i - 1)];
+      const float here_m = depths_m[static_cast<std::size_t>(i)];
+      const float nearer_m = left_m < here_m ? left_m : here_m;
+      // Of two that are 0 there is no jump, of one of them there always is.
+      const int jumps = int{std::abs(here_m - left_m) > jump_ratio * nearer_m};
+      changes_[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(jumps);
+    }
+    const int end = (width + kFlagsAtOnce - 1) / kFlagsAtOnce * kFlagsAtOnce;
+    std::fill(changes_.begin() + width, changes_.begin() + end, std::uint8_t{0});
+  }
+
+  /// visit(i) for the flagged pixels, from left to right.
+  template <class Visitor>
+  void ForEachChange(int width, Visitor&& visit) const noexcept {
+    for (int i = 0; i < width; i += kFlagsAtOnce) {
+      std::uint64_t any = 0;
+      std::memcpy(&any, changes_.data() + i, sizeof any);
+      if (any == 0) continue;
+      for (int k = i; k < i + kFlagsAtOnce; ++k) {
+        if (changes_[static_cast<std::size_t>(k)] != 0) visit(k);
+      }
+    }
+  }
+
   void BuildRow(const PixelBox& box, int v, float jump_ratio) noexcept {
+    const Row& depths_m = row_m();
+    const auto depth_m = [&depths_m](int i) { return depths_m[static_cast<std::size_t>(i)]; };
     int begin = -1;
     int last_valid = -1;
-    float last_depth_m = 0.0F;
-    const Row& depths_m = row_m();
-    for (int i = 0; i < box.width(); ++i) {
-      const float depth_m = depths_m[static_cast<std::size_t>(i)];
-      if (depth_m <= 0.0F) continue;
+    FlagChanges(box.width(), jump_ratio);
+    ForEachChange(box.width(), [&](int i) {
+      if (i > 0 && depth_m(i - 1) > 0.0F) last_valid = i - 1;
+      if (depth_m(i) <= 0.0F) return;
       const bool joins = begin >= 0 && i - last_valid <= kBridgedGapPx + 1 &&
-                         Continuous(depth_m, last_depth_m, jump_ratio);
-      if (!joins) {
-        if (begin >= 0) Append(v, box.u_min + begin, box.u_min + last_valid + 1);
-        begin = i;
-      }
-      last_valid = i;
-      last_depth_m = depth_m;
-    }
+                         Continuous(depth_m(i), depth_m(last_valid), jump_ratio);
+      if (joins) return;
+      if (begin >= 0) Append(v, box.u_min + begin, box.u_min + last_valid + 1);
+      begin = i;
+    });
+    if (depth_m(box.width() - 1) > 0.0F) last_valid = box.width() - 1;
     if (begin >= 0) Append(v, box.u_min + begin, box.u_min + last_valid + 1);
   }
 
@@ -207,6 +238,8 @@ class PixelRuns {
   std::array<PixelRun, static_cast<std::size_t>(kMaxRuns)> runs_;
   FixedVector<Component, kMaxComponents> components_;
   std::array<Row, 2> rows_m_;  ///< Depths of this row and of the one above.
+  static constexpr int kFlagsAtOnce = 8;
+  std::array<std::uint8_t, static_cast<std::size_t>(kMaxWidth + kFlagsAtOnce)> changes_;
   std::size_t current_ = 0;
   int count_ = 0;
   int dropped_ = 0;

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "disflow/depth/depth_reader.h"
+#include "disflow/depth/nearest_columns.h"
 #include "disflow/depth/pixel_mask.h"
 #include "disflow/geometry/pinhole_camera.h"
 #include "disflow/geometry/transform.h"
@@ -45,9 +46,13 @@ class SeenSpace {
     view.box = Widened(object, depth);
     view.cell_px = (std::max(view.box.width(), view.box.height()) + kCells - 1) / kCells;
     view.floor_m = NearestIn(depth, view.box).depth_m;
+    view.steps.fill(0);
+    // As many cells at once as are scanned together; of cells that are too large for that one.
+    const int fitting = (NearestColumns::kMaxWidth_px - 2 * kBorder_px) / view.cell_px;
+    const int columns = std::max(fitting, 1);
     for (int row = 0; row < kCells; ++row) {
-      for (int column = 0; column < kCells; ++column)
-        view.steps[Index(column, row)] = StepsAt(depth, view, column, row);
+      for (int column = 0; column < kCells; column += columns)
+        FillCells(depth, row, column, std::min(column + columns, kCells), view);
     }
   }
 
@@ -95,37 +100,47 @@ class SeenSpace {
             std::min(box.v_max + margin, depth.height_px())};
   }
 
-  struct Nearest {
-    float depth_m = 1e9F;
-    int valid = 0;  ///< Pixels with depth.
-  };
-  [[nodiscard]] static Nearest NearestIn(const DepthReader& depth, const PixelBox& box) noexcept {
-    Nearest nearest;
-    for (int v = box.v_min; v < box.v_max; ++v) {
-      for (int u = box.u_min; u < box.u_max; ++u) {
-        const float depth_m = depth.At(u, v);
-        if (depth_m <= 0.0F) continue;
-        ++nearest.valid;
-        nearest.depth_m = std::min(nearest.depth_m, depth_m);
-      }
+  [[nodiscard]] static NearestDepth NearestIn(const DepthReader& depth,
+                                              const PixelBox& box) noexcept {
+    NearestDepth nearest;
+    NearestColumns columns;
+    for (int u = box.u_min; u < box.u_max; u += NearestColumns::kMaxWidth_px) {
+      const PixelBox part{u, box.v_min, std::min(u + NearestColumns::kMaxWidth_px, box.u_max),
+                          box.v_max};
+      columns.Scan(depth, part);
+      nearest.Add(columns.Within(0, part.width()));
     }
     return nearest;
   }
 
-  [[nodiscard]] static std::uint8_t StepsAt(const DepthReader& depth, const View& view, int column,
-                                            int row) noexcept {
-    const int u = view.box.u_min + column * view.cell_px;
-    const int v = view.box.v_min + row * view.cell_px;
-    if (u >= view.box.u_max || v >= view.box.v_max) return 0;
-    const PixelBox cell{std::max(u - kBorder_px, view.box.u_min),
-                        std::max(v - kBorder_px, view.box.v_min),
-                        std::min(u + view.cell_px + kBorder_px, view.box.u_max),
-                        std::min(v + view.cell_px + kBorder_px, view.box.v_max)};
-    const Nearest nearest = NearestIn(depth, cell);
-    // Where a sensor loses many pixels something may have been in the way.
-    if (4 * nearest.valid < 3 * cell.width() * cell.height()) return 0;
-    const float steps = (nearest.depth_m - view.floor_m) / kStep_m;
-    return static_cast<std::uint8_t>(1.0F + std::min(steps, 254.0F));
+  /// The pixels of the cells [column, column_end) of a row of cells, with those around them.
+  [[nodiscard]] static PixelBox CellBox(const View& view, int row, int column,
+                                        int column_end) noexcept {
+    const PixelBox cells{view.box.u_min + column * view.cell_px - kBorder_px,
+                         view.box.v_min + row * view.cell_px - kBorder_px,
+                         view.box.u_min + column_end * view.cell_px + kBorder_px,
+                         view.box.v_min + (row + 1) * view.cell_px + kBorder_px};
+    return Common(cells, view.box);
+  }
+
+  static void FillCells(const DepthReader& depth, int row, int column, int column_end,
+                        View& view) noexcept {
+    if (view.box.v_min + row * view.cell_px >= view.box.v_max) return;
+    const PixelBox all = CellBox(view, row, column, column_end);
+    const bool together = all.width() <= NearestColumns::kMaxWidth_px;
+    NearestColumns columns;
+    if (together) columns.Scan(depth, all);
+    for (int c = column; c < column_end; ++c) {
+      if (view.box.u_min + c * view.cell_px >= view.box.u_max) return;
+      const PixelBox cell = CellBox(view, row, c, c + 1);
+      const NearestDepth nearest =
+          together ? columns.Within(cell.u_min - all.u_min, cell.u_max - all.u_min)
+                   : NearestIn(depth, cell);
+      // Where a sensor loses many pixels something may have been in the way.
+      if (4 * nearest.valid < 3 * cell.width() * cell.height()) continue;
+      const float steps = (nearest.depth_m - view.floor_m) / kStep_m;
+      view.steps[Index(c, row)] = static_cast<std::uint8_t>(1.0F + std::min(steps, 254.0F));
+    }
   }
 
   [[nodiscard]] static bool LooksThrough(const View& view, const Vec3& x_o,

@@ -235,7 +235,6 @@ class Segmenter {
 
   static constexpr int kProbeStepPx = 8;
   static constexpr int kClosingPx = 2;
-  static constexpr int kBeyondBand_px = 8;
   static constexpr float kOutsidePx = 0.5F;
   static constexpr float kLostPx = 1.5F;
   static constexpr float kLostShare = 0.02F;

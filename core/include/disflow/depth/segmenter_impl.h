@@ -24,6 +24,7 @@ void Segmenter<Limits>::BuildSurfaces(const DepthFrame& frame, const SegmenterCo
         factor * config.model_margin_m + (prior.doubtful ? config.lost_margin_m : 0.0F);
     const ModelGate gate(frame.camera, prior, margin_m);
     box_ = gate.SearchBox(config.min_range_m, {0, 0, frame.depth.width_px, frame.depth.height_px});
+    if (masked) box_ = Common(box_, band_.BoxThatMatters(mask));
     planes_.Clear();
     if (!masked) {
       planes_.Find(depth, box_, [&](int u, int v, float depth_m) {
@@ -37,11 +38,7 @@ void Segmenter<Limits>::BuildSurfaces(const DepthFrame& frame, const SegmenterCo
                       planes_(v, u_begin, u_end, depth_m);
                     });
   } else if (masked) {
-    // So much more than the mask that a surface which goes on beyond its tolerance is seen to.
-    const int margin_px = band_.tolerance_px() + kBeyondBand_px;
-    box_ = {std::max(mask.box().u_min - margin_px, 0), std::max(mask.box().v_min - margin_px, 0),
-            std::min(mask.box().u_max + margin_px, mask.width_px()),
-            std::min(mask.box().v_max + margin_px, mask.height_px())};
+    box_ = band_.BoxThatMatters(mask);
     surfaces_.Build(depth, box_, config.depth_jump_ratio, kMinPixels, [](int, int, int, float*) {});
   } else {
     box_ = RegionOfInterest(frame, config);
@@ -103,17 +100,19 @@ void Segmenter<Limits>::Redraw(const DepthFrame& frame, const ModelPrior& prior,
       drawn.SetRun(run.u_begin, run.u_end);
       return;
     }
-    for (int u = run.u_begin; u < run.u_end; u += kProbeStepPx) {
+    drawn.AddRun(mask, run.u_begin, run.u_end);
+    for (int u = run.u_begin; u < run.u_end && prior.known; u += kProbeStepPx) {
       const int u_end = std::min(u + kProbeStepPx, static_cast<int>(run.u_end));
+      if (mask.CountRun(u, u_end) == u_end - u) continue;
+      const PixelRun part{run.v, static_cast<std::int16_t>(u), static_cast<std::int16_t>(u_end), 0,
+                          0};
       SurfaceVote piece;
-      if (mask.CountRun(u, u_end) < u_end - u && prior.known) {
-        const PixelRun part{run.v, static_cast<std::int16_t>(u), static_cast<std::int16_t>(u_end),
-                            0, 0};
-        Probe(depth, frame.camera, explains, part, piece);
-      }
-      for (int i = u; i < u_end; ++i) {
-        const bool known = piece.explained > 0 && (!masked || band_.Allows(i, run.v));
-        if (known || mask.Test(i)) drawn.SetRun(i, i + 1);
+      Probe(depth, frame.camera, explains, part, piece);
+      if (piece.explained == 0) continue;
+      if (masked) {
+        drawn.AddRun(band_.AllowedIn(run.v), u, u_end);
+      } else {
+        drawn.SetRun(u, u_end);
       }
     }
   });

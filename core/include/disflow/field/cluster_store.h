@@ -186,7 +186,7 @@ class ClusterStore {
       while (clusters_[previous].next != handle) previous = clusters_[previous].next;
       clusters_[previous].next = cluster.next;
     }
-    tree_.Prune(cluster.leaf);
+    tree_.Prune(cluster.leaf, cluster.cell);
     cluster.used = false;
     cluster.next = free_head_;
     free_head_ = handle;

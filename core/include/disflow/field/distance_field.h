@@ -84,14 +84,12 @@ class DistanceField {
   }
 
   /// The same piece of surface as in an earlier match, seen from a point nearby: no search.
-  /// @param beyond_variance_m2 As in the earlier match.
-  [[nodiscard]] Match Reuse(Handle cluster, float beyond_variance_m2,
-                            const Vec3& x_m) const noexcept {
+  [[nodiscard]] Match Reuse(const Match& earlier, const Vec3& x_m) const noexcept {
     Match match;
-    Evaluate(store_[cluster], x_m, match);
-    match.beyond_variance_m2 = beyond_variance_m2;
-    match.variance_m2 += beyond_variance_m2;
-    match.cluster = cluster;
+    Evaluate(store_[earlier.cluster], x_m, match);
+    match.beyond_variance_m2 = earlier.beyond_variance_m2;
+    match.variance_m2 += match.beyond_variance_m2;
+    match.cluster = earlier.cluster;
     return match;
   }
 

@@ -8,6 +8,7 @@
 
 #include "disflow/field/facet_pool.h"
 #include "disflow/field/octree_cell.h"
+#include "disflow/field/octree_nodes.h"
 #include "disflow/types.h"
 
 namespace disflow {
@@ -19,8 +20,6 @@ namespace disflow {
 /// surface has a hole.
 template <int kMaxNodes>
 class Octree {
-  static_assert(kMaxNodes < kNoHandle);
-
  public:
   static constexpr int kDepth = 6;  ///< Levels below the root: 64 cells along each edge.
   static constexpr int kCellsPerEdge = 1 << kDepth;
@@ -34,18 +33,14 @@ class Octree {
   void Start(float cell_size_m) noexcept {
     cell_size_m_ = cell_size_m;
     inverse_cell_size_ = 1.0F / cell_size_m;
-    for (int i = 0; i < kMaxNodes; ++i) {
-      nodes_[static_cast<std::size_t>(i)].parent =
-          static_cast<Handle>(i + 1 < kMaxNodes ? i + 1 : kNoHandle);
-    }
-    free_head_ = 0;
-    used_ = 0;
-    root_ = Take(kNoHandle, 0);
+    nodes_.Start();
+    root_ = nodes_.Take(kNoHandle, 0);
+    entries_.fill(kNoHandle);
     facets_.Start();
   }
 
   [[nodiscard]] float cell_size_m() const noexcept { return cell_size_m_; }
-  [[nodiscard]] int used_nodes() const noexcept { return used_; }
+  [[nodiscard]] int used_nodes() const noexcept { return nodes_.used(); }
 
   /// @return false when x is outside of the mapped cube.
   [[nodiscard]] bool CellAt(const Vec3& x_m, Cell& cell) const noexcept {
@@ -72,8 +67,10 @@ class Octree {
 
   /// The node of a given level (0 = root, kDepth = leaf) that contains a cell.
   [[nodiscard]] Handle FindAtLevel(const Cell& cell, int level) const noexcept {
-    Handle node = root_;
-    for (int bit = kDepth - 1; bit >= kDepth - level && node != kNoHandle; --bit) {
+    const bool below_entry = level >= kEntryLevel;
+    Handle node = below_entry ? entries_[EntryIndex(cell)] : root_;
+    for (int bit = kDepth - 1 - (below_entry ? kEntryLevel : 0);
+         bit >= kDepth - level && node != kNoHandle; --bit) {
       node = at(node).child[Octant(cell, bit)];
     }
     return node;
@@ -85,11 +82,12 @@ class Octree {
     for (int bit = kDepth - 1; bit >= 0; --bit) {
       Handle next = at(node).child[Octant(cell, bit)];
       if (next == kNoHandle) {
-        next = Take(node, static_cast<std::uint8_t>(Octant(cell, bit)));
+        next = nodes_.Take(node, static_cast<std::uint8_t>(Octant(cell, bit)));
         if (next == kNoHandle) {
-          Prune(node);
+          Prune(node, cell);
           return kNoHandle;
         }
+        if (bit == kEntryBit) entries_[EntryIndex(cell)] = next;
         at(node).child[Octant(cell, bit)] = next;
         at(node).children |= static_cast<std::uint8_t>(1U << Octant(cell, bit));
       }
@@ -103,15 +101,15 @@ class Octree {
   void set_head(Handle leaf, Handle cluster) noexcept { at(leaf).first_cluster = cluster; }
 
   /// Gives a node back to the pool, and its ancestors, as long as they hold nothing.
-  void Prune(Handle node) noexcept {
-    while (node != root_ && node != kNoHandle && IsEmpty(at(node))) {
+  /// @param cell One of the node's.
+  void Prune(Handle node, const Cell& cell) noexcept {
+    while (node != root_ && node != kNoHandle && at(node).empty()) {
       const Handle parent = at(node).parent;
       at(parent).child[at(node).octant] = kNoHandle;
       at(parent).children &= static_cast<std::uint8_t>(~(1U << at(node).octant));
       if (at(node).facets != kNoHandle) facets_.Give(at(node).facets);
-      at(node).parent = free_head_;
-      free_head_ = node;
-      --used_;
+      nodes_.Give(node);
+      if (entries_[EntryIndex(cell)] == node) entries_[EntryIndex(cell)] = kNoHandle;
       node = parent;
     }
   }
@@ -120,7 +118,18 @@ class Octree {
   /// bounds the box.
   template <class Visitor>
   void ForEachLeafInBox(const Vec3& low_m, const Vec3& high_m, Visitor&& visit) const noexcept {
-    VisitInBox<kDepth - 1>(root_, Cell{}, ClampedCell(low_m), ClampedCell(high_m), visit);
+    constexpr int kMask = ~((1 << kEntryBit) - 1);
+    constexpr int kStep = 1 << kEntryBit;
+    const Cell low = ClampedCell(low_m);
+    const Cell high = ClampedCell(high_m);
+    for (int z = low.z & kMask; z <= high.z; z += kStep) {
+      for (int y = low.y & kMask; y <= high.y; y += kStep) {
+        for (int x = low.x & kMask; x <= high.x; x += kStep) {
+          const Handle entry = entries_[EntryIndex({x, y, z})];
+          if (entry != kNoHandle) VisitInBox<kEntryBit - 1>(entry, {x, y, z}, low, high, visit);
+        }
+      }
+    }
   }
 
   /// Calls visit(cell, leaf) for every leaf, in a fixed order.
@@ -163,21 +172,22 @@ class Octree {
   }
 
  private:
-  struct Node {
-    std::array<Handle, 8> child;
-    Handle parent;  ///< Next free node while in the free list.
-    Handle first_cluster;
-    Handle facets;          ///< Of a coarse node with samples below, else kNoHandle.
-    std::uint8_t children;  ///< Bit i: child i exists.
-    std::uint8_t octant;    ///< Place among the parent's children.
-  };
-
-  [[nodiscard]] Node& at(Handle node) noexcept { return nodes_[node]; }
-  [[nodiscard]] const Node& at(Handle node) const noexcept { return nodes_[node]; }
+  [[nodiscard]] OctreeNode& at(Handle node) noexcept { return nodes_[node]; }
+  [[nodiscard]] const OctreeNode& at(Handle node) const noexcept { return nodes_[node]; }
 
   [[nodiscard]] static std::size_t Octant(const Cell& cell, int bit) noexcept {
     return static_cast<std::size_t>(((cell.x >> bit) & 1) | (((cell.y >> bit) & 1) << 1) |
                                     (((cell.z >> bit) & 1) << 2));
+  }
+
+  /// Nodes of this level are found without descending from the root.
+  static constexpr int kEntryLevel = 4;
+  static constexpr int kEntryBit = kDepth - kEntryLevel;  ///< Of cells' coordinates: the node's.
+  static constexpr int kEntriesPerEdge = 1 << kEntryLevel;
+  [[nodiscard]] static std::size_t EntryIndex(const Cell& cell) noexcept {
+    return static_cast<std::size_t>(
+        ((cell.z >> kEntryBit) * kEntriesPerEdge + (cell.y >> kEntryBit)) * kEntriesPerEdge +
+        (cell.x >> kEntryBit));
   }
 
   [[nodiscard]] Cell ClampedCell(const Vec3& x_m) const noexcept {
@@ -188,24 +198,6 @@ class Octree {
       return static_cast<int>(above < kLast ? above : kLast);
     };
     return {clamp(x_m.x()), clamp(x_m.y()), clamp(x_m.z())};
-  }
-
-  [[nodiscard]] static bool IsEmpty(const Node& node) noexcept {
-    return node.first_cluster == kNoHandle && node.children == 0;
-  }
-
-  [[nodiscard]] Handle Take(Handle parent, std::uint8_t octant) noexcept {
-    const Handle node = free_head_;
-    if (node == kNoHandle) return kNoHandle;
-    free_head_ = at(node).parent;
-    ++used_;
-    at(node).child.fill(kNoHandle);
-    at(node).parent = parent;
-    at(node).first_cluster = kNoHandle;
-    at(node).facets = kNoHandle;
-    at(node).children = 0;
-    at(node).octant = octant;
-    return node;
   }
 
   // Recursion depth is kDepth, known at compile time.
@@ -289,13 +281,13 @@ class Octree {
     return (offset - inside).squaredNorm();
   }
 
-  std::array<Node, static_cast<std::size_t>(kMaxNodes)> nodes_;
+  OctreeNodes<kMaxNodes> nodes_;
+  /// By their place among the nodes of their level; kNoHandle where nothing was ever stored.
+  std::array<Handle, std::size_t{kEntriesPerEdge} * kEntriesPerEdge * kEntriesPerEdge> entries_;
   FacetPool<kMaxCoarseNodes> facets_;
   float cell_size_m_ = 0.0F;
   float inverse_cell_size_ = 0.0F;
   Handle root_ = 0;
-  Handle free_head_ = 0;
-  int used_ = 0;
 };
 
 }  // namespace disflow

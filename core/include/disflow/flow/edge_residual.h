@@ -41,12 +41,14 @@ class EdgeResiduals {
   void SetRadius(float radius_m) noexcept { radius_m_ = radius_m; }
 
   [[nodiscard]] Residual At(int i, const PoseObjectFromCamera& T_oc, float scale_m,
-                            bool reuse) noexcept {
+                            Matching matching) noexcept {
     const ModelEdge*& known = known_[static_cast<std::size_t>(i)];
     Residual residual;
-    if (!reuse || known != nullptr) {
+    // One edge is easily taken for another before the first step.
+    const bool search = matching != Matching::kLinear;
+    if (search || known != nullptr) {
       const EdgePoint moved = T_oc * edges_[i];
-      if (!reuse) known = model_.FindNearest(moved, config_.match_radius_m + scale_m);
+      if (search) known = model_.FindNearest(moved, config_.match_radius_m + scale_m);
       if (known != nullptr) residual = EdgeResidualOf(moved, *known, radius_m_);
     }
     const bool unmatched = residual.status == ResidualStatus::kUnmatched;

@@ -5,6 +5,26 @@
 
 namespace disflow {
 
+/// Sums over residuals, w r r^T of whole rows r = (J, per radius, residual): laid out for vector
+/// instructions, since it is added to for every residual in every step.
+class NormalSums {
+ public:
+  /// Adds a residual with the Jacobian of section V-D, J(x) = [grad d^T, (x cross grad d)^T].
+  /// @param lever_m The point relative to the centre of rotation.
+  /// @param gradient Derivative of the residual by the point's position, object frame.
+  /// @param per_radius Its derivative by the radius of the edges.
+  void Add(const Vec3& lever_m, const Vec3& gradient, float residual_m, float weight,
+           float per_radius = 0.0F) noexcept;
+
+ private:
+  friend struct NormalEquations;
+
+  /// Of the first half of a row with all of it, and of the second half with itself.
+  Mat<float, 8, 4> first_ = Mat<float, 8, 4>::Zero();
+  Mat4 second_ = Mat4::Zero();
+  Mat4 moments_ = Mat4::Zero();  ///< Of (lever, 1).
+};
+
 /// The linearised problem of one closed-form step (section V-D): H = sum w J^T J, b = sum w J^T d,
 /// solved for H xi = -b. Beside the pose there is the radius that the object's edges are rounded
 /// with (see EdgeRounding), an addition to the paper.
@@ -19,13 +39,7 @@ struct NormalEquations {
   Vec3 moment_1_m = Vec3::Zero();
   Mat3 moment_2_m2 = Mat3::Zero();
 
-  /// Adds a residual with the Jacobian of section V-D, J(x) = [grad d^T, (x cross grad d)^T].
-  /// @param lever_m The point relative to the centre of rotation.
-  /// @param gradient Derivative of the residual by the point's position, object frame.
-  /// @param per_radius Its derivative by the radius of the edges.
-  void Add(const Vec3& lever_m, const Vec3& gradient, float residual_m, float weight,
-           float per_radius = 0.0F) noexcept;
-  void AddMoments(const Vec3& lever_m, float weight) noexcept;
+  NormalEquations& operator+=(const NormalSums& sums) noexcept;
 
   /// sum w J^T J if the gradients pointed everywhere at once: that of an isotropic residual.
   [[nodiscard]] Mat6 Isotropic() const noexcept;

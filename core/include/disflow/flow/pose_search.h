@@ -22,7 +22,7 @@ class PoseSearch {
   using Prior = PoseSearchPrior;
 
   /// Keeps references to its arguments.
-  PoseSearch(const RegistrationType& registration, const Field& field, const Model& edges,
+  PoseSearch(RegistrationType& registration, const Field& field, const Model& edges,
              const RegistrationConfig& config, const Prior& prior) noexcept
       : registration_(registration), field_(field), edges_(edges), config_(config), prior_(prior) {}
 
@@ -165,7 +165,7 @@ class PoseSearch {
     return {T_oc.rotation(), Vec3(T_oc.translation() + shift)};
   }
 
-  const RegistrationType& registration_;
+  RegistrationType& registration_;
   const Field& field_;
   const Model& edges_;
   const RegistrationConfig& config_;

@@ -46,15 +46,14 @@ class Registration {
     if (wanted > 0) center_c_ /= static_cast<float>(wanted);
     edges_ = &edges;
   }
+  /// The points' centroid, camera frame.
   [[nodiscard]] const Vec3& center_c() const noexcept { return center_c_; }
-  [[nodiscard]] int size() const noexcept { return samples_.size(); }
 
   /// Share of the observed points that the model explains under a pose, 0..1. Unmatched points
   /// count 0.
   [[nodiscard]] float Score(const Field& field, const RegistrationConfig& config,
                             const PoseObjectFromCamera& T_oc) const noexcept {
     if (samples_.empty()) return 0.0F;
-    constexpr float kTolerance_m = 0.003F;
     const int wanted = std::min(config.score_points, samples_.size());
     float sum = 0.0F;
     for (int i = 0; i < wanted; ++i) {
@@ -62,10 +61,23 @@ class Registration {
       const auto match = field.FindMatch(T_oc * sample.position_m, T_oc.rotation() * sample.normal,
                                          config.match_radius_m, config.min_normal_cos);
       if (!match.found) continue;
-      const float expected = kTolerance_m * kTolerance_m + sample.variance_m2 + match.variance_m2;
-      sum += expected / (expected + match.distance_m * match.distance_m);
+      sum += Explained(match.distance_m, sample.variance_m2 + match.variance_m2);
     }
     return sum / static_cast<float>(wanted);
+  }
+
+  /// The same under the pose that Align() found last, by what the points were matched with there.
+  [[nodiscard]] float ScoreOfAligned(const Field& field, const RegistrationConfig& config,
+                                     const PoseObjectFromCamera& T_oc) noexcept {
+    if (samples_.empty()) return 0.0F;
+    SurfaceResiduals<Limits> surfaces(field, samples_, config, known_);
+    float sum = 0.0F;
+    for (int i = 0; i < surfaces.size(); ++i) {
+      const Residual residual = surfaces.At(i, T_oc, 0.0F, Matching::kLinear);
+      if (residual.status != ResidualStatus::kMatched) continue;
+      sum += Explained(residual.distance_m, residual.variance_m2);
+    }
+    return sum / static_cast<float>(samples_.size());
   }
 
   /// Share of the observed occluding edges that lie on edges of the model, 0..1, of those that
@@ -76,7 +88,7 @@ class Registration {
     float sum = 0.0F;
     int expected = 0;
     for (int i = 0; i < edges.size(); ++i) {
-      const Residual edge = edges.At(i, T_oc, 0.0F, false);
+      const Residual edge = edges.At(i, T_oc, 0.0F, Matching::kSearch);
       if (edge.status != ResidualStatus::kUnexpected) ++expected;
       if (edge.status != ResidualStatus::kMatched) continue;
       sum += GemanMcClure(edge.distance_m, 2.0F * std::sqrt(edge.variance_m2));
@@ -90,18 +102,20 @@ class Registration {
   [[nodiscard]] Result Align(const Field& field, const Model& model_edges,
                              const RegistrationConfig& config, const PoseObjectFromCamera& T_start,
                              const PoseObjectFromCamera& T_predicted, RobustScale scale,
-                             int iterations) const noexcept {
-    SurfaceResiduals<Limits> surfaces(field, samples_, config);
+                             int iterations) noexcept {
+    SurfaceResiduals<Limits> surfaces(field, samples_, config, known_);
     EdgeResiduals<Limits> edges(model_edges, *edges_, config);
     Result result;
     result.T_oc = T_start;
+    result.points = samples_.size();
+    result.center_c = center_c_;
     result.rounding = edges.known_rounding();
     NormalEquations joint;
     NormalEquations equations;
-    bool settled = false;
+    auto matching = Matching::kSearch;
     for (int i = 0; i < iterations; ++i, scale = scale.Halved()) {
       // V-D: H = sum J^T J and b = sum J^T d, at the current pose.
-      joint = Linearise(surfaces, edges, config, scale, settled, result);
+      joint = Linearise(surfaces, edges, config, scale, matching, result);
       equations = joint.WithoutRadius();
       result.information.total = equations.h;
       // V-E: the penalty on what deviates from the predicted motion.
@@ -118,9 +132,7 @@ class Registration {
       edges.SetRadius(edges.radius_m() + joint.RadiusStep(xi));
       result.iterations = i + 1;
       result.solved = true;
-      // Near the end the points hardly move: they keep the surface that they were matched with.
-      settled = i + 1 >= kMinSearches && scale.surface_m < kSettledScale_m &&
-                IsSmallerThan(xi, kSettled_m, kSettled_rad);
+      matching = MatchingAfter(xi, i + 1, scale);
       if (i + 1 >= kMinSteps && IsSmallerThan(xi, kConverged_m, kConverged_rad)) break;
     }
     // Once, at the end: it costs a factorisation.
@@ -129,9 +141,18 @@ class Registration {
   }
 
  private:
+  /// How far a distance from the model is what is to be expected, 0..1.
+  [[nodiscard]] static float Explained(float distance_m, float variance_m2) noexcept {
+    constexpr float kTolerance_m = 0.003F;
+    const float expected_m2 = kTolerance_m * kTolerance_m + variance_m2;
+    return expected_m2 / (expected_m2 + distance_m * distance_m);
+  }
+
   static constexpr int kMinInliers = 12;  ///< Twice the unknowns.
   static constexpr int kMinSteps = 5;     ///< The kernels are narrow then.
   static constexpr int kMinSearches = 2;
+  static constexpr float kNearby_m = 2e-3F;    ///< A tenth of a cell.
+  static constexpr float kNearby_rad = 2e-2F;  ///< The same at a hand's breadth.
   static constexpr float kSettledScale_m = 0.003F;
   static constexpr float kSettled_m = 5e-4F;
   static constexpr float kSettled_rad = 5e-3F;
@@ -141,23 +162,34 @@ class Registration {
   /// model average 15 observations, of which a correlation of 0.7 from frame to frame leaves 3.
   static constexpr float kFieldsTilt = 0.25F;
 
+  /// How the points are matched after a step: near the end they hardly move.
+  [[nodiscard]] static Matching MatchingAfter(const Vec6& xi, int steps,
+                                              const RobustScale& scale) noexcept {
+    if (steps >= kMinSearches && scale.surface_m < kSettledScale_m &&
+        IsSmallerThan(xi, kSettled_m, kSettled_rad)) {
+      return Matching::kLinear;
+    }
+    return IsSmallerThan(xi, kNearby_m, kNearby_rad) ? Matching::kKeep : Matching::kSearch;
+  }
+
   /// One line per kind of residual.
-  /// @param reuse Match with what was found in the last step.
   [[nodiscard]] NormalEquations Linearise(SurfaceResiduals<Limits>& surfaces,
                                           EdgeResiduals<Limits>& edges,
                                           const RegistrationConfig& config,
-                                          const RobustScale& scale, bool reuse,
+                                          const RobustScale& scale, Matching matching,
                                           Result& result) const noexcept {
     NormalEquations equations;
     const PoseObjectFromCamera& T_oc = result.T_oc;
     const Vec3 center_m = T_oc * center_c_;
     const ResidualSums surface =
-        AddResiduals(surfaces, T_oc, center_m, {config, scale.surface_m}, reuse, equations);
+        AddResiduals(surfaces, T_oc, center_m, {config, scale.surface_m}, matching);
+    equations += surface.normals;
     // Of the surface alone: errors of the field's gradients do not touch the edges.
     result.information.across = equations.Isotropic() - equations.h;
     result.information.gradient_variance_rad2 = kFieldsTilt * surface.mean_tilt_rad2();
-    const ResidualSums edge = AddResiduals(
-        edges, T_oc, center_m, {config, scale.edges_m, result.edge_trust}, reuse, equations);
+    const ResidualSums edge =
+        AddResiduals(edges, T_oc, center_m, {config, scale.edges_m, result.edge_trust}, matching);
+    equations += edge.normals;
 
     const EdgeRounding& known = edges.known_rounding();
     equations.AddRadiusPrior(edges.radius_m() - known.radius_m, known.variance_m2);
@@ -176,6 +208,7 @@ class Registration {
   }
 
   Samples samples_;
+  typename SurfaceResiduals<Limits>::Known known_;
   Vec3 center_c_ = Vec3::Zero();
   const Edges* edges_ = nullptr;
 };

@@ -25,8 +25,10 @@ struct RegistrationResult {
   PoseObjectFromCamera T_oc;
   RegistrationInformation information;  ///< At the end, about center_m, object frame.
   Vec3 center_m = Vec3::Zero();         ///< Centre of rotation, object frame.
+  Vec3 center_c = Vec3::Zero();         ///< The same, the points' centroid, camera frame.
   EdgeRounding rounding;                ///< What is known of the object's edges by this frame.
   int iterations = 0;
+  int points = 0;  ///< That were registered.
   int inliers = 0;
   int edge_inliers = 0;
   float edge_trust = 1.0F;  ///< How far edges are believed, 0..1: as far as they agree.

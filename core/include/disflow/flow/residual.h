@@ -12,7 +12,7 @@
 ///
 /// A kind of residual is a class in a file of its own (surface_residual.h, edge_residual.h) with
 /// - `int size() const`: how many observations there are in this frame,
-/// - `Residual At(int i, const PoseObjectFromCamera& T_oc, float scale_m, bool reuse)`: observation
+/// - `Residual At(int i, const PoseObjectFromCamera& T_oc, float scale_m, Matching)`: observation
 ///   i under a pose, searched for within reach of a robust kernel of width scale_m, or matched with
 ///   what the last search found.
 ///
@@ -54,6 +54,13 @@ struct ResidualWeighting {
   float trust = 1.0F;  ///< How far this kind is believed, 0..1.
 };
 
+/// How observations find what they are matched with.
+enum class Matching : std::uint8_t {
+  kSearch,  ///< Anywhere near.
+  kKeep,    ///< In the piece of surface of the last step, whose field is asked anew.
+  kLinear,  ///< The same, by what its field was there, to first order.
+};
+
 /// Sums over the residuals of one kind in one step.
 struct ResidualSums {
   int inliers = 0;  ///< Residuals that the robust kernel hardly weakens.
@@ -69,24 +76,25 @@ struct ResidualSums {
   float information = 0.0F;
   float informed_tilt_rad2 = 0.0F;
 
+  NormalSums normals;  ///< What they add to the normal equations.
+
   [[nodiscard]] float mean_generation() const noexcept;
   [[nodiscard]] float mean_tilt_rad2() const noexcept;  ///< Not negative.
   [[nodiscard]] float rms_m() const noexcept;
-  /// Gates one residual, weights it, and adds it to the normal equations and to these sums.
+  /// Gates one residual, weights it, and adds it.
   /// @param center_m Centre of rotation, object frame.
-  void Add(const Residual& residual, const ResidualWeighting& weighting, const Vec3& center_m,
-           NormalEquations& equations) noexcept;
+  void Add(const Residual& residual, const ResidualWeighting& weighting,
+           const Vec3& center_m) noexcept;
 };
 
 /// Adds all residuals of one kind.
-/// @param reuse Match the observations with what they were matched with in the last step.
 template <class Residuals>
 [[nodiscard]] ResidualSums AddResiduals(Residuals& residuals, const PoseObjectFromCamera& T_oc,
                                         const Vec3& center_m, const ResidualWeighting& weighting,
-                                        bool reuse, NormalEquations& equations) noexcept {
+                                        Matching matching) noexcept {
   ResidualSums sums;
   for (int i = 0; i < residuals.size(); ++i) {
-    sums.Add(residuals.At(i, T_oc, weighting.scale_m, reuse), weighting, center_m, equations);
+    sums.Add(residuals.At(i, T_oc, weighting.scale_m, matching), weighting, center_m);
   }
   return sums;
 }

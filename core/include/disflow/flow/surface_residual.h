@@ -20,21 +20,63 @@ class SurfaceResiduals {
   using Field = DistanceField<Limits>;
   using Samples = FixedVector<SurfaceSample, Limits::kMaxRegistrationPoints>;
 
+  /// What a sample is matched with, and where the field was asked. Near the end the points hardly
+  /// move: to first order the field about them is what it was.
+  struct Correspondence {
+    FieldMatch match;
+    Vec3 place_m;
+    bool coarse;  ///< Looked for on the coarse levels, which are nothing to end with.
+  };
+  /// Written by the first search.
+  using Known =
+      std::array<Correspondence, static_cast<std::size_t>(Limits::kMaxRegistrationPoints)>;
+
   /// Keeps references to its arguments.
   /// @param samples Camera frame.
-  SurfaceResiduals(const Field& field, const Samples& samples,
-                   const RegistrationConfig& config) noexcept
-      : field_(field), samples_(samples), config_(config) {}
+  SurfaceResiduals(const Field& field, const Samples& samples, const RegistrationConfig& config,
+                   Known& known) noexcept
+      : field_(field), samples_(samples), config_(config), known_(known) {}
 
   [[nodiscard]] int size() const noexcept { return samples_.size(); }
 
   [[nodiscard]] Residual At(int i, const PoseObjectFromCamera& T_oc, float scale_m,
-                            bool reuse) noexcept {
+                            Matching matching) noexcept {
     const SurfaceSample& sample = samples_[i];
+    const Vec3 x_o = T_oc * sample.position_m;
+    Correspondence& known = known_[static_cast<std::size_t>(i)];
+    const bool keep = matching == Matching::kKeep;
+    if (matching == Matching::kSearch || known.coarse || (keep && !known.match.found)) {
+      known = Search(x_o, T_oc.rotation() * sample.normal, scale_m);
+    } else if (keep) {
+      known.match = field_.Reuse(known.match, x_o);
+      known.place_m = x_o;
+    }
+    return ResidualOf(sample, T_oc, x_o, known);
+  }
+
+ private:
+  /// From this kernel width on the octree's coarse levels may pull samples that are far from any
+  /// local GP.
+  static constexpr float kCoarseScale_m = 0.002F;
+
+  [[nodiscard]] Correspondence Search(const Vec3& x_o, const Vec3& n_o,
+                                      float scale_m) const noexcept {
+    Correspondence found;
+    found.place_m = x_o;
+    found.match =
+        field_.FindMatch(x_o, n_o, config_.match_radius_m + scale_m, config_.min_normal_cos);
+    found.coarse = !found.match.found && !found.match.normal_mismatch && scale_m > kCoarseScale_m;
+    if (found.coarse) found.match = field_.FindCoarseMatch(x_o, n_o, config_.min_normal_cos);
+    return found;
+  }
+
+  /// The field about the place where it was asked last, to first order.
+  [[nodiscard]] static Residual ResidualOf(const SurfaceSample& sample,
+                                           const PoseObjectFromCamera& T_oc, const Vec3& x_o,
+                                           const Correspondence& known) noexcept {
+    const FieldMatch& match = known.match;
     Residual residual;
-    residual.point_m = T_oc * sample.position_m;
-    const Vec3 normal = T_oc.rotation() * sample.normal;
-    const FieldMatch match = Match(i, residual.point_m, normal, scale_m, reuse);
+    residual.point_m = x_o;
     if (!match.found) {
       residual.status =
           match.normal_mismatch ? ResidualStatus::kNormalMismatch : ResidualStatus::kUnmatched;
@@ -43,42 +85,18 @@ class SurfaceResiduals {
     residual.status = ResidualStatus::kMatched;
     residual.gradient = match.gradient;
     residual.gradient_norm = match.gradient.norm();
-    residual.distance_m = match.distance_m;
+    residual.distance_m = match.distance_m + match.gradient.dot(x_o - known.place_m);
     residual.variance_m2 = sample.variance_m2 + match.variance_m2;
     residual.generation = match.generation;
-    const Vec3 tilt = match.gradient / residual.gradient_norm - normal;
+    const Vec3 tilt = match.gradient / residual.gradient_norm - T_oc.rotation() * sample.normal;
     residual.tilt_rad2 = 0.5F * tilt.squaredNorm() - sample.normal_variance;
     return residual;
   }
 
- private:
-  /// From this kernel width on the octree's coarse levels may pull samples that are far from any
-  /// local GP.
-  static constexpr float kCoarseScale_m = 0.002F;
-
-  [[nodiscard]] FieldMatch Match(int i, const Vec3& x_o, const Vec3& n_o, float scale_m,
-                                 bool reuse) noexcept {
-    Correspondence& known = known_[static_cast<std::size_t>(i)];
-    const FieldMatch match =
-        reuse && known.cluster != kNoHandle
-            ? field_.Reuse(known.cluster, known.beyond_variance_m2, x_o)
-            : field_.FindMatch(x_o, n_o, config_.match_radius_m + scale_m, config_.min_normal_cos);
-    known = {match.cluster, match.beyond_variance_m2};
-    const bool coarse = !match.found && !match.normal_mismatch && scale_m > kCoarseScale_m;
-    return coarse ? field_.FindCoarseMatch(x_o, n_o, config_.min_normal_cos) : match;
-  }
-
-  /// What a sample was matched with.
-  struct Correspondence {
-    Handle cluster;
-    float beyond_variance_m2;
-  };
-
   const Field& field_;
   const Samples& samples_;
   const RegistrationConfig& config_;
-  /// Written by the first search.
-  std::array<Correspondence, static_cast<std::size_t>(Limits::kMaxRegistrationPoints)> known_;
+  Known& known_;
 };
 
 }  // namespace disflow

@@ -53,12 +53,23 @@ struct PinholeCamera {
   }
 };
 
-/// Pixel nearest to a place in the image.
+/// Pixel nearest to a place in the image, which may lie anywhere; what is farther off than any
+/// image reaches, and what is not a number, is some pixel outside of all images.
 struct PixelAt {
-  explicit PixelAt(const Vec2& px) noexcept
-      : u(static_cast<int>(std::lround(px.x()))), v(static_cast<int>(std::lround(px.y()))) {}
+  explicit PixelAt(const Vec2& px) noexcept : u(Nearest(px.x())), v(Nearest(px.y())) {}
   int u;
   int v;
+
+ private:
+  /// As std::lround(), which most compilers call as a function: a fifth of the time of the edges.
+  [[nodiscard]] static int Nearest(float px) noexcept {
+    constexpr float kFarthest_px = 1e6F;
+    const float above_px = px > -kFarthest_px ? px : -kFarthest_px;  // NaN too
+    const float near_px = above_px < kFarthest_px ? above_px : kFarthest_px;
+    const int whole = static_cast<int>(near_px);
+    const float rest_px = near_px - static_cast<float>(whole);
+    return whole + int{rest_px >= 0.5F} - int{rest_px <= -0.5F};
+  }
 };
 
 }  // namespace disflow
