@@ -5,6 +5,7 @@ accuracy: tracks and judges the whole table, checks every figure against its goa
 ablation: switches one part of the method off at a time.
 objects: two and four objects that pass in front of each other, and the time with one and two threads.
 peers: generalised and point-to-plane ICP of PCL beside the tracker, on the same recorded frames.
+cost: instructions per frame and stage, counted by callgrind.
 """
 
 import argparse
@@ -14,6 +15,7 @@ import time
 
 import ablation
 import accuracy
+import cost
 import objects
 import pages
 import peers
@@ -35,10 +37,13 @@ def parse(words):
     parser.add_argument("--out", type=pathlib.Path, help="folder for what is measured [build/WHAT]")
     parser.add_argument("--docs", type=pathlib.Path, default=ROOT / "docs", help="folder of the pages [docs]")
     parser.add_argument("--seeds", type=pages.seeds, metavar="LIST",
-                        help="e.g. 11-15 or 1,4 [accuracy: 11-15, which nothing may be tuned on; peers: 11-13; others: 1-3]")
+                        help="e.g. 11-15 or 1,4 [accuracy: 11-15, which nothing may be tuned on; peers: 11-13; cost: always 11; "
+                             "others: 1-3]")
     parser.add_argument("--tune", action="store_true", help="seeds 1-3, for choosing settings; the pages stay as they are")
     parser.add_argument("--quick", action="store_true", help="seed 1 alone; the pages stay as they are")
-    parser.add_argument("--frames", type=int, default=300, help="peers: of every sequence [300]")
+    parser.add_argument("--frames", type=int, default=300, help="peers, cost: of every sequence [300]")
+    parser.add_argument("--check", action="store_true",
+                        help="cost: fail if a median has grown by more than 5 %% over what docs/cost.json says; the pages stay as they are")
     parser.add_argument("--objects", action="append", metavar="FILE.obj", type=pathlib.Path, default=[],
                         help="peers: a scanned mesh in metres, in addition; may be repeated")
     parser.add_argument("--remark", default="", help="peers: what to say on the page of how it was measured")
@@ -93,11 +98,28 @@ def measure_peers(options, seeds, whole):
     print(text)
 
 
+def measure_cost(options, seeds, whole):
+    rows = [row for row in (cost.QUICK_ROWS if options.quick else cost.ROWS)
+            if not options.only or any(text in row.name for text in options.only)]
+    results = cost.measure(runs.Programs(options.bin, options.out), rows, options.frames)
+    stored = options.docs / "cost.json"
+    if options.check:
+        print("\n".join(cost.check(results, stored)))
+        return
+    commit = cost.commit_of(ROOT)
+    text = cost.page(results, commit, options.frames)
+    if whole:
+        cost.write_json(stored, results, options.frames, commit)
+        pages.replace_part(options.docs / "performance.md", "cost", text)
+    print(text)
+
+
 MEASURES = {
     "accuracy": measure_accuracy,
     "ablation": measure_ablation,
     "objects": measure_objects,
     "peers": measure_peers,
+    "cost": measure_cost,
 }
 # Seeds that nothing was tuned on, where figures are published.
 SEEDS = {"accuracy": FINAL_SEEDS, "peers": PEER_SEEDS}
@@ -110,7 +132,7 @@ def main(words):
     if options.quick:
         seeds = TUNING_SEEDS[:1]
     # What is measured only in part does not belong on a page.
-    whole = not options.quick and not options.tune and not options.only
+    whole = not (options.quick or options.tune or options.only or options.check)
     begin = time.monotonic()
     try:
         MEASURES[options.what](options, seeds, whole)

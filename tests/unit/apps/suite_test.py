@@ -12,6 +12,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "tests" / "
 
 import ablation
 import accuracy
+import cost
 import figures
 import main
 import objects
@@ -177,6 +178,62 @@ class Peers(unittest.TestCase):
             self.assertEqual(len({setting.show() for setting in peer.settings}), len(peer.settings))
 
 
+def dump(folder, number, instructions):
+    """A file as callgrind writes it."""
+    path = pathlib.Path(folder) / f"out.{number}"
+    path.write_text(f"version: 1\nevents: Ir\n\nfn=(1) main\n1 {instructions}\n\ntotals: {instructions}\n", encoding="utf-8")
+    return path
+
+
+class Cost(unittest.TestCase):
+    LINES = ("frame,status,segment,register,retrain", "0,ok,1,0,1", "1,ok,1,1,1", "2,no mask,1,0,0")
+
+    def test_counts_belong_to_the_stages_that_a_frame_went_through(self):
+        with tempfile.TemporaryDirectory() as folder:
+            # Of each frame what came before it, then its stages.
+            dumps = [dump(folder, i, count) for i, count in enumerate((900, 10, 20, 900, 11, 12, 13, 900, 14))]
+            self.assertEqual(cost.read_counts(self.LINES, dumps), [
+                {"segment": 10, "register": 0, "retrain": 20},
+                {"segment": 11, "register": 12, "retrain": 13},
+                {"segment": 14, "register": 0, "retrain": 0}])
+            with self.assertRaisesRegex(RuntimeError, "fewer files"):
+                cost.read_counts(self.LINES, dumps[:-1])
+
+    def test_file_that_callgrind_did_not_write_is_named(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "out.1"
+            path.write_text("nothing\n", encoding="utf-8")
+            with self.assertRaisesRegex(RuntimeError, "out.1"):
+                cost.total_of(path)
+
+    def test_start_counts_in_the_percentile_but_not_in_what_comes_later(self):
+        spread = cost.spread_of([1000] * 5 + [10, 30, 20] + [10] * 9)
+        self.assertEqual((spread["median"], spread["p99"], spread["most_later"]), (10, 1000, 30))
+
+    def test_growth_beyond_the_bound_is_an_error_that_names_the_row(self):
+        def results(median):
+            return {"box": {"frame": {"median": median, "p99": 2 * median, "most_later": median}}}
+
+        with tempfile.TemporaryDirectory() as folder:
+            stored = pathlib.Path(folder) / "cost.json"
+            cost.write_json(stored, results(1_000_000), 300, "abc")
+            self.assertIn("box", cost.check(results(1_049_000), stored)[0])
+            with self.assertRaisesRegex(RuntimeError, "box: 1.06 M, stored 1.00 M"):
+                cost.check(results(1_060_000), stored)
+            with self.assertRaisesRegex(RuntimeError, "none of the rows"):
+                cost.check({"bottle": results(1)["box"]}, stored)
+
+    def test_page_shows_every_row_in_millions(self):
+        frames = [{"segment": 1_000_000, "register": 2_500_000}] * 9
+        text = cost.page({"box, d415": cost.summarise(frames)}, "abc", 9)
+        self.assertIn("| box, d415 | 1.00 | 2.50 | **3.50** | 3.50 | 3.50 | 1.00 |", text)
+
+    def test_the_rows_of_the_check_are_stored(self):
+        stored = json.loads((main.ROOT / "docs" / "cost.json").read_text(encoding="utf-8"))["rows"]
+        for row in cost.QUICK_ROWS:
+            self.assertIn(row.name, stored)
+
+
 class Pages(unittest.TestCase):
     def test_seeds_are_numbers_and_spans(self):
         self.assertEqual(pages.seeds("11-13,4"), [11, 12, 13, 4])
@@ -204,7 +261,7 @@ class Pages(unittest.TestCase):
             self.assertEqual(page.read_text(encoding="utf-8"), "all by hand\n")
 
     def test_the_pages_in_the_tree_have_their_markers(self):
-        for name, part in (("results.md", "accuracy"), ("results.md", "peers"), ("method.md", "ablation")):
+        for name, part in (("results.md", "accuracy"), ("results.md", "peers"), ("method.md", "ablation"), ("performance.md", "cost")):
             text = (main.ROOT / "docs" / name).read_text(encoding="utf-8")
             self.assertIn(f"<!-- {part}:begin", text)
             self.assertIn(f"<!-- {part}:end -->", text)
