@@ -5,6 +5,7 @@
 #include <set>
 #include <string>
 
+#include "disflow/host/bop_scene.h"
 #include "errors.h"
 #include "text_file.h"
 
@@ -83,6 +84,34 @@ void RequireObject(const fs::path& gt, const fs::path& folder) {
 }
 
 }  // namespace
+
+bool IsBopScene(const fs::path& dir) { return fs::exists(dir / "scene_camera.json"); }
+
+GroundTruth LoadBopTruth(const fs::path& dir, const std::string& object, int& id) {
+  host::BopCameras cameras;
+  host::BopObjects objects;
+  hal::Fault fault = ReadBopCameras(dir, cameras);
+  if (fault.ok()) fault = ReadBopObjects(dir, objects);
+  if (!fault.ok()) throw InputError(fault.message);
+  const fs::path file = dir / "scene_gt.json";
+  GroundTruth truth;
+  for (const auto& [image, camera] : cameras) {
+    const std::vector<host::BopObject>& shown = objects[image];
+    int place = -1;
+    fault = FindBopObject(shown, object, place);
+    if (!fault.ok()) throw InputError(file, std::string("with --object, ") + fault.message);
+    if (place < 0) {
+      throw InputError(file, "image " + std::to_string(image) + " does not show the object '" +
+                                 object + "' of --object");
+    }
+    const host::BopObject& found = shown[static_cast<std::size_t>(place)];
+    id = found.id;
+    truth.T_ct.emplace_back(found.T_co.rotation(), found.T_co.translation());
+    truth.file_indices.push_back(static_cast<int>(image));
+  }
+  if (truth.T_ct.empty()) throw InputError(file, "holds no pose");
+  return truth;
+}
 
 fs::path TruthFolder(const fs::path& sequence_dir, const std::string& object) {
   return object.empty() ? sequence_dir / "gt" : sequence_dir / "gt" / object;

@@ -23,6 +23,16 @@ struct GroundTruth {
 [[nodiscard]] GroundTruth LoadGroundTruth(const std::filesystem::path& sequence_dir,
                                           const std::string& object = {});
 
+/// Whether a folder is a scene of the BOP benchmark.
+[[nodiscard]] bool IsBopScene(const std::filesystem::path& dir);
+
+/// Reads scene_gt.json of such a scene, which has neither velocities nor stamps.
+/// @param object Its obj_id; gtN for the N-th of each image; empty for the only one.
+/// @param id The obj_id of the object that was chosen.
+/// @throws InputError naming file, image and reason; also if an image does not show the object.
+[[nodiscard]] GroundTruth LoadBopTruth(const std::filesystem::path& dir, const std::string& object,
+                                       int& id);
+
 /// The folder that holds the truth and the model of an object.
 [[nodiscard]] std::filesystem::path TruthFolder(const std::filesystem::path& sequence_dir,
                                                 const std::string& object);

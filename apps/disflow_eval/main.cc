@@ -38,7 +38,9 @@ constexpr const char* kDescription =
     "Compares a trajectory of disflow_track with the truth and prints the metrics.";
 
 constexpr const char* kFooter =
-    "A folder holds gt/poses.txt, gt/velocities.txt, data.txt and gt/model.obj (Fast-YCB layout).\n"
+    "A folder holds gt/poses.txt, gt/velocities.txt, data.txt and gt/model.obj (Fast-YCB layout),\n"
+    "or is a BOP scene: scene_camera.json and scene_gt.json, --object its obj_id, the model of\n"
+    "models_eval/ or models/ beside the scenes' folders.\n"
     "The estimate is aligned with the truth once, at its first frame. Frames without a row count\n"
     "as failed in the AUC figures; the other figures are over the frames that have one.\n"
     "ADD-S is the mean distance of the model's points from the nearest point of the surface of "

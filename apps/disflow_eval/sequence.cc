@@ -10,6 +10,8 @@
 #include "disflow/host/simulation.h"
 #include "errors.h"
 #include "model_file.h"
+#include "ply_file.h"
+#include "units.h"
 
 namespace disflow::apps {
 namespace {
@@ -22,13 +24,34 @@ void RequireOk(const hal::Fault& fault) {
   if (!fault.ok()) throw InputError(fault.message);
 }
 
+/// The data set's own model, in millimetres; it lies beside the folders of scenes.
+void FindBopModel(const fs::path& dir, int id, Sequence& sequence) {
+  const fs::path data_set = (fs::absolute(dir) / ".." / "..").lexically_normal();
+  const std::string name = Format("obj_%06d.ply", id);
+  fs::path file = data_set / "models_eval" / name;
+  if (!fs::exists(file)) file = data_set / "models" / name;
+  sequence.model_name = file.string();
+  if (!fs::exists(file)) return;
+  constexpr double kMetresPerMillimetre = 1e-3;
+  sequence.model = LoadPly(file);
+  for (Vec3d& vertex : sequence.model->vertices) vertex *= kMetresPerMillimetre;
+}
+
+Sequence OpenBopScene(const fs::path& dir, const std::string& object) {
+  Sequence sequence;
+  int id = 0;
+  sequence.truth = LoadBopTruth(dir, object, id);
+  FindBopModel(dir, id, sequence);
+  return sequence;
+}
+
 Sequence OpenFolder(const fs::path& dir, const std::string& object) {
+  if (IsBopScene(dir)) return OpenBopScene(dir, object);
   Sequence sequence;
   sequence.truth = LoadGroundTruth(dir, object);
-  if (const fs::path file = TruthFolder(dir, object) / "model.obj"; fs::exists(file)) {
-    sequence.model_name = file.string();
-    sequence.model = LoadModel(file);
-  }
+  const fs::path file = TruthFolder(dir, object) / "model.obj";
+  sequence.model_name = file.string();
+  if (fs::exists(file)) sequence.model = LoadModel(file);
   if (fs::exists(dir / "cam_K.json")) {
     // Opened when first asked for: most evaluations never look at the images.
     sequence.image = [dir, images = std::make_shared<std::optional<DepthImages>>(),
@@ -96,7 +119,7 @@ Sequence OpenSequence(const std::string& address, const fs::path& model_file,
     sequence.model = LoadModel(model_file);
   }
   if (!sequence.model) {
-    throw InputError(TruthFolder(address, object) / "model.obj",
+    throw InputError(fs::path(sequence.model_name),
                      "does not exist; name the object's model with --model");
   }
   return sequence;

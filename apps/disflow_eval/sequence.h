@@ -17,12 +17,13 @@ using ImageSource = std::function<std::optional<DepthFrame>(std::size_t k)>;
 /// A sequence with ground truth.
 struct Sequence {
   GroundTruth truth;
-  std::string model_name;        ///< Where the model came from; empty = the sequence has none.
+  std::string model_name;        ///< Where the model came from, or would be.
   std::optional<Surface> model;  ///< True object frame, metres.
   ImageSource image;             ///< Empty if the sequence has no images.
 };
 
-/// Opens a folder in the Fast-YCB layout, or a simulation by the address that disflow_track takes
+/// Opens a folder in the Fast-YCB layout, a scene of the BOP benchmark, or a simulation by the
+/// address that disflow_track takes
 /// ("sim:box?motion=fast"): the same images, rendered anew where they are asked for.
 /// @param model_file Used in place of the sequence's own model unless empty.
 /// @param object Which of several objects is to be judged; empty: the only one.

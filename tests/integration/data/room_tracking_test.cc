@@ -81,10 +81,11 @@ TEST_P(RoomTracking, CameraMotionThroughAStaticRoom_MatchesTheGivenPosesAndTheRo
   const Stretch& stretch = GetParam();
   const fs::path room = TestData(stretch.folder);
   DISFLOW_SKIP_WITHOUT(room);
-  const Outcome outcome = RunTrack(
-      {"--sensor", "replay:" + room.string() + "?mask=none", "--profile", "dense", "--config",
-       DISFLOW_ROOM_SETTINGS, "--csv", Path("room.csv"), "--mesh", Path("room.ply"), "--headless"},
-      scratch());
+  const Outcome outcome =
+      RunTrack({"--sensor", "replay:" + room.string() + "?mask=none&fps=30", "--profile", "dense",
+                "--config", DISFLOW_ROOM_SETTINGS, "--csv", Path("room.csv"), "--mesh",
+                Path("room.ply"), "--headless"},
+               scratch());
   ASSERT_EQ(outcome.exit_status, 0) << outcome.err;
   const std::vector<apps::EstimateRow> rows = apps::LoadEstimates(Path("room.csv"), kFrames).rows;
   ASSERT_EQ(rows.size(), static_cast<std::size_t>(kFrames));

@@ -120,6 +120,8 @@ std::string CameraOfSides() {
 std::string CameraOfGiantSides() {
   return R"({"width":16384,"height":16384,"fx":1,"fy":1,"cx":1,"cy":1})";
 }
+std::string BopOfOneImage() { return Repeat("{\"0\":{\"cam_K\":[", "1,", "1]}}"); }
+std::string BopOfImages() { return Repeat("{", "\"0\":[{}],", "\"0\":{}}"); }
 std::string OneField() { return Repeat("", "1 "); }
 std::string ManyLines() { return Repeat("", "a\n"); }
 
@@ -221,6 +223,15 @@ const std::vector<HostileFile>& HostileFiles() {
       {"StampsOfManyLines", Reader::kReplay, "data.txt", ManyLines},
       {"StampsOfTooManyFrames", Reader::kReplay, "data.txt", TooManyFrames},
       {"StampsOfAHole", Reader::kReplay, "data.txt", Nothing, kHole},
+      {"ImageListOfOneLine", Reader::kReplay, "depth.txt", LineWithoutEnd},
+      {"ImageListOfManyLines", Reader::kReplay, "depth.txt", ManyLines},
+      {"ImageListOfAHole", Reader::kReplay, "depth.txt", Nothing, kHole},
+      {"SceneOfBrackets", Reader::kReplay, "scene_camera.json", DeepJson},
+      {"SceneOfBraces", Reader::kReplay, "scene_camera.json", DeepJsonObject},
+      {"SceneOfNumbers", Reader::kReplay, "scene_camera.json", LongJson},
+      {"SceneOfOneImage", Reader::kReplay, "scene_camera.json", BopOfOneImage},
+      {"SceneOfImages", Reader::kReplay, "scene_camera.json", BopOfImages},
+      {"SceneOfAHole", Reader::kReplay, "scene_camera.json", Nothing, kHole},
       {"WorldPosesOfManyFields", Reader::kReplay, "T_wc.txt", OneField},
       {"WorldPosesOfManyLines", Reader::kReplay, "T_wc.txt", ManyLines},
       {"WorldPosesOfAHole", Reader::kReplay, "T_wc.txt", Nothing, kHole},

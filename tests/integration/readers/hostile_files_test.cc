@@ -45,6 +45,7 @@ std::string Refusal(Read&& read) {
 std::string Replay(const fs::path& folder) {
   host::ReplayOptions options;
   options.dir = folder;
+  if (fs::exists(folder / "scene_camera.json")) options.rate_hz = 30.0;
   host::ReplaySensor sensor(options);
   hal::Fault fault = sensor.Open();
   DepthFrame frame;

@@ -51,6 +51,32 @@ TEST(SequenceTest, OneOfSeveralRecordedObjects_IsTheOneAskedFor) {
   }
 }
 
+TEST(SequenceTest, BopScene_CarriesTruthInMetresAndTheDataSetsModel) {
+  const ScratchDir dir;
+  const std::string scene = (dir.path() / "test" / "000048").string();
+  dir.Write("test/000048/scene_camera.json",
+            R"({"3":{"cam_K":[500,0,20,0,500,15,0,0,1],"depth_scale":1},)"
+            R"("9":{"cam_K":[500,0,20,0,500,15,0,0,1],"depth_scale":1}})");
+  const std::string object = R"({"cam_R_m2c":[1,0,0,0,1,0,0,0,1],"cam_t_m2c":[0,0,750],"obj_id":)";
+  dir.Write("test/000048/scene_gt.json", R"({"9":[)" + object + "2}," + object + R"(5}],"3":[)" +
+                                             object + "5}," + object + "2}]}");
+  EXPECT_PRED_FORMAT2(testing::IsSubstring, "models/obj_000005.ply",
+                      MessageOf<InputError>([&] { (void)OpenSequence(scene, {}, "5"); }));
+  dir.Write("models/obj_000005.ply",
+            "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+            "property float z\nend_header\n0 30 0\n");
+  const Sequence sequence = OpenSequence(scene + "/", {}, "5");
+  ASSERT_EQ(sequence.truth.T_ct.size(), 2U);
+  EXPECT_EQ(sequence.truth.T_ct[1].translation().z(), 0.75);
+  EXPECT_EQ(sequence.truth.file_indices, (std::vector<int>{3, 9}));
+  EXPECT_TRUE(sequence.truth.stamps_s.empty());
+  EXPECT_DOUBLE_EQ(sequence.model->vertices.at(0).y(), 0.03);
+  EXPECT_PRED_FORMAT2(testing::IsSubstring, "of: 5 2",
+                      MessageOf<InputError>([&] { (void)OpenSequence(scene); }));
+  EXPECT_PRED_FORMAT2(testing::IsSubstring, "image 3 does not show",
+                      MessageOf<InputError>([&] { (void)OpenSequence(scene, {}, "8"); }));
+}
+
 TEST(SequenceTest, DroppedFrames_AreNoFramesOfTheSequence) {
   const Sequence sequence = OpenSequence("sim:box?frames=40&drop=0.5&width=160&height=96");
   EXPECT_LT(sequence.truth.T_ct.size(), 35U);

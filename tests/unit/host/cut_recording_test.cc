@@ -71,9 +71,11 @@ TEST_F(CutRecording, LastDepthThatIsCut_IsLeftOut) {
 TEST_F(CutRecording, SeveralImagesWithoutALine_AreRefusedWithARemedy) {
   Overwrite(path() / "data.txt", "");
   ExpectRefused(Status::kCorrupt, "0.float and 5 more");
-  ExpectRefused(Status::kCorrupt, "30 frames/s");
+  ExpectRefused(Status::kCorrupt, "fps=30");
   fs::remove(path() / "data.txt");
-  ReplaySensor sensor(Replay());
+  ReplayOptions options = Replay();
+  options.rate_hz = 30.0;
+  ReplaySensor sensor(options);
   EXPECT_TRUE(sensor.Open().ok()) << "the remedy works";
 }
 

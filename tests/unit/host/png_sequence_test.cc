@@ -34,6 +34,7 @@ class PngSequence : public testing::Test {
   [[nodiscard]] ReplayOptions Replay() const {
     ReplayOptions options;
     options.dir = dir_.path();
+    options.rate_hz = 30.0;
     return options;
   }
   static int Value(const CopiedFrame& frame) {
@@ -63,6 +64,36 @@ TEST_F(PngSequence, IsPlayedInNaturalOrderInMillimetres) {
     EXPECT_FALSE(frame.frame.mask.given());
     EXPECT_FALSE(frame.frame.has_T_wc) << "poses are used only when asked for";
   }
+}
+
+TEST_F(PngSequence, WithoutRate_IsRefusedSinceNobodyKnowsItsStamps) {
+  Write("depth");
+  ReplayOptions options = Replay();
+  options.rate_hz.reset();
+  const hal::Fault fault = ReplaySensor(options).Open();
+  EXPECT_EQ(fault.status, Status::kInvalidUri);
+  EXPECT_NE(std::string(fault.message).find("?fps=30"), std::string::npos) << fault.message;
+}
+
+TEST_F(PngSequence, Rate_IsThatOfTheStamps) {
+  Write("depth");
+  ReplayOptions options = Replay();
+  options.rate_hz = 12.5;
+  ReplaySensor sensor(options);
+  ASSERT_TRUE(sensor.Open().ok());
+  const std::vector<CopiedFrame> frames = PlayAll(sensor);
+  for (int i = 1; i < kFrames; ++i) {
+    EXPECT_EQ(frames[static_cast<std::size_t>(i)].frame.stamp_ns - frames[0].frame.stamp_ns,
+              StampNs{80'000'000} * i);
+  }
+}
+
+TEST_F(PngSequence, RateBesideStamps_IsRefused) {
+  Write("depth");
+  dir_.Write("data.txt", "0 1\n");
+  const hal::Fault fault = ReplaySensor(Replay()).Open();
+  EXPECT_EQ(fault.status, Status::kInvalidUri);
+  EXPECT_NE(std::string(fault.message).find("data.txt"), std::string::npos) << fault.message;
 }
 
 TEST_F(PngSequence, MaskedDepthFolderAndScale_AreUnderstood) {
@@ -95,6 +126,30 @@ TEST_F(LooseImages, ArePlayedInNaturalOrder) {
   for (int i = 0; i < 4; ++i) EXPECT_EQ(Value(frames[static_cast<std::size_t>(i)]), 8 + i);
 }
 
+/// Plays a folder whose data.txt lists an image that is not there.
+std::string MessageOfMissing(const ReplayOptions& replay) {
+  ReplayOptions options = replay;
+  options.rate_hz.reset();
+  ReplaySensor sensor(options);
+  EXPECT_TRUE(sensor.Open().ok());
+  const std::vector<CopiedFrame> frames = PlayAll(sensor);
+  return frames.size() == 2 ? frames[1].fault.message : "other frames than two";
+}
+
+TEST_F(LooseImages, MissingOne_IsNamedInFull) {
+  WriteImage("000000.png", 1);
+  dir_.Write("data.txt", "0 1\n3 2\n");
+  EXPECT_NE(MessageOfMissing(Replay()).find("/000003.png"), std::string::npos)
+      << MessageOfMissing(Replay());
+}
+
+TEST_F(LooseImages, MissingOneAmongNamesWithoutZerosAndWithAnEnding_IsNamedInFull) {
+  WriteImage("frame-7.depth.png", 1);
+  dir_.Write("data.txt", "7 1\n12 2\n");
+  EXPECT_NE(MessageOfMissing(Replay()).find("/frame-12.depth.png"), std::string::npos)
+      << MessageOfMissing(Replay());
+}
+
 TEST_F(LooseImages, OfSeveralKinds_AreRefusedWithAWayOut) {
   WriteImage("colour_1.png", 1);
   WriteImage("depth_1.png", 1);
@@ -108,7 +163,7 @@ TEST_F(LooseImages, OfSeveralKinds_AreRefusedWithAWayOut) {
 TEST_F(PngSequence, Poses_AreUsedWhenAskedFor) {
   Write("depth");
   ReplayOptions options = Replay();
-  options.world_poses = WorldPoses::kPoseFolder;
+  options.world_poses = WorldPoses::kGiven;
   ReplaySensor sensor(options);
   const hal::Fault opened = sensor.Open();
   ASSERT_TRUE(opened.ok()) << opened.message;
@@ -125,7 +180,7 @@ TEST_F(PngSequence, Poses_AreUsedWhenAskedFor) {
 TEST_F(PngSequence, MissingOrBadPoses_AreNamed) {
   Write("depth");
   ReplayOptions options = Replay();
-  options.world_poses = WorldPoses::kPoseFolder;
+  options.world_poses = WorldPoses::kGiven;
   dir_.Write("pose/frame3.pose.txt", "2 0 0 0\n0 2 0 0\n0 0 2 0\n0 0 0 1\n");
   const hal::Fault not_rigid = ReplaySensor(options).Open();
   EXPECT_EQ(not_rigid.status, Status::kInvalidTransform);

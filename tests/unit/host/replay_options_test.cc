@@ -17,7 +17,8 @@ hal::Fault Parse(const std::string& text, ReplayOptions& options) {
 TEST(ReplayOptions, EveryKey_ReachesItsField) {
   ReplayOptions options;
   const hal::Fault fault = Parse(
-      "replay:/data/run 1?mask=mrcnn&object=bottle&scale=0.0001&K=570.5,571,306.25,238&T_wc=poses&"
+      "replay:/data/run "
+      "1?mask=mrcnn&object=bottle&scale=0.0001&fps=12.5&K=570.5,571,306.25,238&T_wc=poses&"
       "first=3&count=20",
       options);
   ASSERT_TRUE(fault.ok()) << fault.message;
@@ -25,12 +26,13 @@ TEST(ReplayOptions, EveryKey_ReachesItsField) {
   EXPECT_EQ(options.mask_set, "mrcnn");
   EXPECT_EQ(options.object, "bottle");
   EXPECT_EQ(options.unit_m, 0.0001);
+  EXPECT_EQ(options.rate_hz, 12.5);
   ASSERT_TRUE(options.camera.has_value());
   EXPECT_EQ(options.camera->fx_px, 570.5F);
   EXPECT_EQ(options.camera->fy_px, 571.0F);
   EXPECT_EQ(options.camera->cx_px, 306.25F);
   EXPECT_EQ(options.camera->cy_px, 238.0F);
-  EXPECT_EQ(options.world_poses, WorldPoses::kPoseFolder);
+  EXPECT_EQ(options.world_poses, WorldPoses::kGiven);
   EXPECT_EQ(options.first, 3);
   EXPECT_EQ(options.count, 20);
 }
@@ -59,6 +61,7 @@ INSTANTIATE_TEST_SUITE_P(All, BadReplayAddress,
                                          BadAddress{"MaskOutside", "replay:x?mask=../up", "mask"},
                                          BadAddress{"MaskAbove", "replay:x?mask=..", "mask"},
                                          BadAddress{"ScaleZero", "replay:x?scale=0", "scale"},
+                                         BadAddress{"RateZero", "replay:x?fps=0", "fps"},
                                          BadAddress{"ScaleNoNumber", "replay:x?scale=mm", "scale"},
                                          BadAddress{"UnknownPoses", "replay:x?T_wc=yes", "poses"},
                                          BadAddress{"NegativeFirst", "replay:x?first=-1", "first"},

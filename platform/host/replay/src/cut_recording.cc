@@ -45,7 +45,7 @@ hal::Fault LeaveOutUnlisted(const fs::path& stamps, const std::vector<NumberedFi
   if (unlisted.size() > 1 || !is_last) {
     return hal::MakeFault(Status::kCorrupt,
                           "%s: has no line for %s and %zu more; a recording that was cut short "
-                          "lacks one. Remove the images, or this file to replay at 30 frames/s",
+                          "lacks one. Remove the images, or this file and say fps=30",
                           stamps.c_str(), first.path.filename().c_str(), unlisted.size() - 1);
   }
   if (index.frames.empty()) {

@@ -72,4 +72,20 @@ hal::Fault ListNumberedFiles(const fs::path& folder, const std::string& extensio
   return {};
 }
 
+fs::path PathOfNumber(const std::vector<NumberedFile>& files, std::uint64_t number) {
+  // The smallest number shows zeros ahead, if there are any.
+  const NumberedFile& example = *std::min_element(
+      files.begin(), files.end(),
+      [](const NumberedFile& a, const NumberedFile& b) { return a.number < b.number; });
+  const std::string name = example.path.filename().string();
+  const std::size_t first = example.prefix.size();
+  const std::size_t behind = std::min(name.find_first_not_of(kDigits, first), name.size());
+  const bool has_zeros = behind - first > 1 && name[first] == '0';
+  std::string digits = std::to_string(number);
+  if (has_zeros && digits.size() < behind - first) {
+    digits.insert(0, behind - first - digits.size(), '0');
+  }
+  return example.path.parent_path() / (example.prefix + digits + name.substr(behind));
+}
+
 }  // namespace disflow::host

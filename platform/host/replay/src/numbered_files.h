@@ -23,4 +23,10 @@ struct NumberedFile {
                                            const std::string& extension,
                                            std::vector<NumberedFile>& files);
 
+/// Where the file of a number would be, named as its neighbours are: "000003.png" among files of
+/// six digits.
+/// @param files Not empty.
+[[nodiscard]] std::filesystem::path PathOfNumber(const std::vector<NumberedFile>& files,
+                                                 std::uint64_t number);
+
 }  // namespace disflow::host

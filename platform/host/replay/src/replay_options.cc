@@ -9,7 +9,7 @@ namespace disflow::host {
 namespace {
 
 constexpr std::array kWorldPoses{Choice<WorldPoses>{"auto", WorldPoses::kIfRecorded},
-                                 Choice<WorldPoses>{"poses", WorldPoses::kPoseFolder},
+                                 Choice<WorldPoses>{"poses", WorldPoses::kGiven},
                                  Choice<WorldPoses>{"none", WorldPoses::kNone}};
 constexpr int kMaxFrames = 100'000'000;
 
@@ -47,6 +47,7 @@ hal::Fault SetOption(std::string_view key, std::string_view value, ReplayOptions
   if (key == "mask") return ParseName(key, value, options.mask_set);
   if (key == "object") return ParseName(key, value, options.object);
   if (key == "scale") return ParseNumber(key, value, 1e-7, 1.0, options.unit_m.emplace());
+  if (key == "fps") return ParseNumber(key, value, 0.01, 1e4, options.rate_hz.emplace());
   if (key == "K") return ParseCamera(value, options.camera);
   if (key == "T_wc") {
     return ParseChoice(key, value, std::span<const Choice<WorldPoses>>(kWorldPoses),
@@ -55,8 +56,8 @@ hal::Fault SetOption(std::string_view key, std::string_view value, ReplayOptions
   if (key == "first") return ParseNumber(key, value, 0, kMaxFrames, options.first);
   if (key == "count") return ParseNumber(key, value, 1, kMaxFrames, options.count);
   return hal::MakeFault(Status::kInvalidUri,
-                        "replay has no option %.*s; known: mask, object, scale, K, T_wc, first, "
-                        "count",
+                        "replay has no option %.*s; known: mask, object, scale, fps, K, T_wc, "
+                        "first, count",
                         static_cast<int>(key.size()), key.data());
 }
 

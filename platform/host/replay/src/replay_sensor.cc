@@ -16,8 +16,6 @@ namespace {
 
 using hal::Fault;
 
-constexpr double kMillimetres = 0.001;
-
 /// A file of one frame that is missing or no image at all is that frame's loss only.
 Fault AsLostFrame(Fault fault) {
   if (!fault.ok() && fault.status != Status::kTruncated) fault.status = Status::kCorrupt;
@@ -89,7 +87,7 @@ Fault ReplaySensor::State::CheckMasks() const {
 
 Fault ReplaySensor::State::ReadFrame(const RecordedFrame& source, DepthFrame& frame) {
   frame = DepthFrame{};
-  frame.camera = index.camera.camera;
+  frame.camera = source.camera.value_or(index.camera.camera);
   frame.stamp_ns = source.stamp_ns;
   frame.has_T_wc = source.has_T_wc;
   frame.T_wc = source.T_wc;
@@ -118,7 +116,7 @@ Fault ReplaySensor::State::ReadDepth(const RecordedFrame& source, DepthFrame& fr
     view.width_px = depth_png.width_px;
     view.height_px = depth_png.height_px;
     view.format = DepthFormat::kUint16;
-    view.unit_m = static_cast<float>(options.unit_m.value_or(kMillimetres));
+    view.unit_m = options.unit_m ? static_cast<float>(*options.unit_m) : source.unit_m;
   }
   view.stride_bytes = static_cast<std::ptrdiff_t>(view.width_px) * view.bytes_per_pixel();
   return fault;

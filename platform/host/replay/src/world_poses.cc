@@ -8,6 +8,7 @@
 #include "disflow/host/sequence_layout.h"
 #include "numbered_files.h"
 #include "text_table.h"
+#include "tum_sequence.h"
 
 namespace disflow::host {
 namespace {
@@ -69,9 +70,7 @@ hal::Fault ReadMatrixPose(const fs::path& file, Transform<World, Camera>& pose) 
     rotation.row(row) << n[0], n[1], n[2];
     translation[row] = n[3];
   }
-  constexpr double kTolerance = 1e-2;
-  const double error = (rotation.transpose() * rotation - Mat3d::Identity()).cwiseAbs().maxCoeff();
-  if (!(error < kTolerance) || rotation.determinant() < 0.0) {
+  if (!IsRotation(rotation)) {
     return hal::MakeFault(Status::kInvalidTransform, "%s: its 3x3 part is no rotation",
                           file.c_str());
   }
@@ -96,7 +95,9 @@ hal::Fault ReadPoseFolder(const fs::path& dir, std::vector<RecordedFrame>& frame
 
 hal::Fault ReadWorldPoses(const ReplayOptions& options, SequenceIndex& index) {
   const fs::path file = options.dir / kWorldPoseFile;
-  if (options.world_poses == WorldPoses::kPoseFolder) {
+  if (options.world_poses == WorldPoses::kGiven) {
+    if (index.layout == SequenceLayout::kBop) return {};  // stand beside the intrinsics
+    if (index.layout == SequenceLayout::kTum) return ReadTumWorldPoses(options.dir, index.frames);
     return ReadPoseFolder(options.dir, index.frames);
   }
   if (options.world_poses == WorldPoses::kNone || !fs::exists(file)) return {};

@@ -11,6 +11,14 @@ namespace disflow::host {
 using Vec3d = Mat<double, 3>;
 using Mat3d = Mat<double, 3, 3>;
 
+/// Whether a matrix that was printed with a few digits is a rotation.
+[[nodiscard]] inline bool IsRotation(const Mat3d& m) {
+  constexpr double kTolerance = 1e-2;
+  // Written so that NaN is none.
+  return (m.transpose() * m - Mat3d::Identity()).cwiseAbs().maxCoeff() < kTolerance &&
+         m.determinant() > 0.0;
+}
+
 /// Where frame `B` is in frame `A` and how it moves there.
 template <class A, class B>
 struct RigidState {

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// Names of the files and folders of a sequence in the Fast-YCB layout.
+/// Names of the files and folders of a sequence in the Fast-YCB layout, and of others' layouts.
 
 namespace disflow::host {
 
@@ -21,6 +21,13 @@ inline constexpr const char* kWorldPoseFile = "T_wc.txt";
 /// Its line of a frame for which the camera's pose was not known.
 inline constexpr const char* kNoWorldPose = "none";
 inline constexpr const char* kPoseFolder = "pose";
+/// TUM RGB-D.
+inline constexpr const char* kTumDepthFile = "depth.txt";
+inline constexpr const char* kTumPoseFile = "groundtruth.txt";
+/// BOP, a scene.
+inline constexpr const char* kBopCameraFile = "scene_camera.json";
+inline constexpr const char* kBopTruthFile = "scene_gt.json";
+inline constexpr const char* kBopVisibleFolder = "mask_visib";
 inline constexpr const char* kDepthExtension = ".float";
 inline constexpr const char* kImageExtension = ".png";
 
