@@ -3,6 +3,7 @@
 # name, e.g. -DDISFLOW_WITH_LIBCAMERA=OFF. (Not option(): the default must follow DISFLOW_BUILD_APPS when that changes.)
 #   DISFLOW_WITH_LIBCAMERA  cameras of libcamera (--sensor libcamera:)
 #   DISFLOW_WITH_DDS        ROS 2 over DDS (--sensor dds:, --link dds:)
+#   DISFLOW_WITH_ROSBAG     recordings of ROS (--sensor rosbag:)
 #   DISFLOW_WITH_VIEW       the live view (--view)
 set(disflow_has_programs OFF)
 if(DISFLOW_BUILD_APPS AND CMAKE_SYSTEM_NAME STREQUAL "Linux")
@@ -11,7 +12,7 @@ endif()
 if(DISFLOW_BUILD_APPS OR DISFLOW_BUILD_FUZZERS)
   set(DISFLOW_BUILD_PLATFORM ON)  # they are built on it, as are the features
 endif()
-foreach(feature LIBCAMERA DDS VIEW)
+foreach(feature LIBCAMERA DDS ROSBAG VIEW)
   if(NOT DEFINED DISFLOW_WITH_${feature})
     set(DISFLOW_WITH_${feature} ${disflow_has_programs})
   endif()
@@ -22,13 +23,13 @@ endforeach()
 
 # Recorded sequences and pictures; ROS sends depth as pictures too.
 set(DISFLOW_USES_FILES OFF)
-if((DISFLOW_BUILD_APPS OR DISFLOW_BUILD_FUZZERS OR DISFLOW_WITH_DDS) AND NOT CMAKE_SYSTEM_NAME STREQUAL "Generic")
+if((DISFLOW_BUILD_APPS OR DISFLOW_BUILD_FUZZERS OR DISFLOW_WITH_DDS OR DISFLOW_WITH_ROSBAG) AND NOT CMAKE_SYSTEM_NAME STREQUAL "Generic")
   set(DISFLOW_USES_FILES ON)
 endif()
 
 # As disflow_track --version names it; the rest is always there.
-set(disflow_features v4l2 libcamera serial udp mavlink dds view)
-foreach(feature LIBCAMERA DDS VIEW)
+set(disflow_features v4l2 libcamera serial udp mavlink dds rosbag view)
+foreach(feature LIBCAMERA DDS ROSBAG VIEW)
   if(NOT DISFLOW_WITH_${feature})
     string(TOLOWER ${feature} name)
     list(REMOVE_ITEM disflow_features ${name})

@@ -21,7 +21,7 @@ features() {
   case "$architecture" in
     arm64) echo "v4l2 libcamera serial udp mavlink" ;;
     armhf) echo "v4l2 serial udp mavlink" ;;
-    *) echo "v4l2 libcamera serial udp mavlink dds view" ;;
+    *) echo "v4l2 libcamera serial udp mavlink dds rosbag view" ;;
   esac
 }
 

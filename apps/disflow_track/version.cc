@@ -13,6 +13,9 @@ std::string VersionText() {
 #ifdef DISFLOW_HAS_DDS
   text += " dds";
 #endif
+#ifdef DISFLOW_HAS_ROSBAG
+  text += " rosbag";
+#endif
 #ifdef DISFLOW_HAS_VIEW
   text += " view";
 #endif

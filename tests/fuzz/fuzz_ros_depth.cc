@@ -3,8 +3,8 @@
 #include <cstring>
 #include <vector>
 
-#include "disflow/posix/dds/ros_camera_info.h"
-#include "disflow/posix/dds/ros_depth_decoder.h"
+#include "disflow/posix/ros/ros_camera_info.h"
+#include "disflow/posix/ros/ros_depth_decoder.h"
 #include "file_in_memory.h"
 
 namespace {

@@ -5,7 +5,7 @@ import assert from "node:assert/strict";
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
-import { millimetres, png, quantised, readFrames, rows, writeRecording } from "./frames.js";
+import { millimetres, png, quantised, readFrames, rows, stampLines, writeRecording } from "./frames.js";
 import { decode, writerOf } from "./messages.js";
 import { Peer } from "./peer.js";
 import { headerOf, Player, stampOf } from "./player.js";
@@ -78,6 +78,7 @@ const floats = (folder, images) => writeRecording(folder, camera, sinceEpoch, im
 function pictures(folder) {
   mkdirSync(join(folder, "depth"), { recursive: true });
   writeFileSync(join(folder, "cam_K.json"), JSON.stringify(camera));
+  writeFileSync(join(folder, "data.txt"), stampLines(fromOne));
   frames.forEach((frame, i) =>
     writeFileSync(join(folder, "depth", `${i}.png`), png(frame.width, frame.height, millimetres(frame))),
   );

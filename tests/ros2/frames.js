@@ -15,12 +15,15 @@ export function readFrames(folder, count) {
   });
 }
 
+const seconds = (ns) => `${ns / 1000000000n}.${String(ns % 1000000000n).padStart(9, "0")}`;
+/** A data.txt. */
+export const stampLines = (stamps) => stamps.map((ns, i) => `${i} ${seconds(ns)}\n`).join("");
+
 /** A recording with other stamps (nanoseconds) or other images. */
 export function writeRecording(folder, camera, stamps, frames) {
   mkdirSync(join(folder, "depth"), { recursive: true });
   writeFileSync(join(folder, "cam_K.json"), JSON.stringify(camera));
-  const seconds = (ns) => `${ns / 1000000000n}.${String(ns % 1000000000n).padStart(9, "0")}`;
-  writeFileSync(join(folder, "data.txt"), stamps.map((ns, i) => `${i} ${seconds(ns)}\n`).join(""));
+  writeFileSync(join(folder, "data.txt"), stampLines(stamps));
   frames.forEach(({ width, height, metres }, i) => {
     const head = Buffer.alloc(16);
     head.writeBigUInt64LE(BigInt(width), 0);

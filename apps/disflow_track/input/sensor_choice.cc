@@ -10,6 +10,9 @@
 #ifdef DISFLOW_HAS_LIBCAMERA
 #include "disflow/posix/camera/libcamera_sensor.h"
 #endif
+#ifdef DISFLOW_HAS_ROSBAG
+#include "disflow/posix/rosbag/bag_sensor.h"
+#endif
 
 namespace disflow::apps {
 namespace {
@@ -38,18 +41,43 @@ Fault OpenCamera(const std::string& uri, host::Sensor& sensor) {
   return sensor.Emplace<posix::V4l2Sensor>(address, description).Open();
 }
 
+Fault OpenRecording(const std::string& address, host::Sensor& sensor) {
+#ifdef DISFLOW_HAS_ROSBAG
+  host::Uri uri;
+  if (const Fault fault = host::ParseUri(address, uri); !fault.ok()) return fault;
+  posix::BagOptions options;
+  if (const Fault fault = posix::ParseBagUri(uri, options); !fault.ok()) return fault;
+  auto& recording = sensor.Emplace<posix::BagSensor>(options);
+  const Fault fault = recording.Open();
+  sensor.set_note(recording.note());
+  return fault;
+#else
+  (void)sensor;
+  return hal::MakeFault(Status::kInvalidUri,
+                        "%s: this disflow_track was built without recordings of ROS "
+                        "(DISFLOW_WITH_ROSBAG=OFF)",
+                        address.c_str());
+#endif
+}
+
+/// Of any kind that is no ROS 2 topic.
+Fault OpenByScheme(const std::string& uri, host::Sensor& sensor) {
+  if (posix::IsCameraAddress(uri)) return OpenCamera(uri, sensor);
+  if (uri.starts_with("rosbag:")) return OpenRecording(uri, sensor);
+  return host::OpenSensor(uri, sensor);
+}
+
 }  // namespace
 
 std::shared_ptr<posix::RosNode> OpenSensor(const Options& options, host::Sensor& sensor,
                                            Console& console) {
   const std::string& uri = options.sensor;
   if (IsDdsAddress(uri)) return OpenRosSensor(options, sensor, console);
-  const bool is_camera = posix::IsCameraAddress(uri);
-  const Fault fault = is_camera ? OpenCamera(uri, sensor) : host::OpenSensor(uri, sensor);
+  const Fault fault = OpenByScheme(uri, sensor);
   if (fault.ok()) return nullptr;
   // A camera's intrinsics stand in the command line or a file of the user's.
   const bool is_usage = fault.status == Status::kInvalidUri ||
-                        (is_camera && fault.status == Status::kInvalidIntrinsics);
+                        (posix::IsCameraAddress(uri) && fault.status == Status::kInvalidIntrinsics);
   throw Failure(is_usage ? kWrongUsage : kInputFailed, fault.message);
 }
 

@@ -11,8 +11,8 @@
 
 namespace disflow::apps {
 
-/// Makes and opens the sensor that Options::sensor names: a camera, a ROS 2 topic, a recorded or a
-/// simulated sequence.
+/// Makes and opens the sensor that Options::sensor names: a camera, a ROS 2 topic, a recording of
+/// ROS, a recorded or a simulated sequence.
 /// @return The node that reads it, if it is a ROS 2 topic.
 /// @throws Failure kWrongUsage for the address, kInputFailed if it cannot be opened.
 std::shared_ptr<posix::RosNode> OpenSensor(const Options& options, host::Sensor& sensor,

@@ -40,6 +40,14 @@ constexpr const char* kLinksAndStatus =
     "Exit status: 0 done, 2 wrong usage or settings, 3 the sensor failed, a file of the sequence\n"
     "could not be read or no frame could be tracked, 4 an output or link failed.";
 
+constexpr const char* kRosbagHelp =
+    "  rosbag:PATH?depth=TOPIC\n"
+    "               depth images of a recording of ROS 2 (docs/ros2.md): a file .mcap or .db3, or "
+    "the folder of ros2 bag\n"
+    "               record. Options: info=TOPIC (CameraInfo; camera_info beside the images), "
+    "mask=TOPIC (mono8),\n"
+    "               rectified=yes|no (by the topic's name), first=N, count=N\n";
+
 const std::map<std::string, ProfileName> kProfiles = {
     {"micro", ProfileName::kMicro}, {"edge", ProfileName::kEdge}, {"dense", ProfileName::kDense}};
 const std::map<std::string, Rate> kRates = {
@@ -263,7 +271,7 @@ Options ParseCommandLine(int argc, char** argv, bool& exit_now) {
   Options options;
   SettingSources settings;
   CLI::App app(kDescription, "disflow_track");
-  app.footer(std::string("Sensors:\n") + posix::kCameraAddressHelp + kDdsSensorHelp +
+  app.footer(std::string("Sensors:\n") + posix::kCameraAddressHelp + kDdsSensorHelp + kRosbagHelp +
              host::SensorHelp() + kLinksAndStatus);
   app.add_flag("--version", options.print_version, "Show version and what is built in, and end");
   AddInput(app, options, settings);

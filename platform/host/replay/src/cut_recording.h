@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "disflow/hal/fault.h"
-#include "numbered_files.h"
+#include "disflow/host/numbered_files.h"
 #include "sequence_index.h"
 #include "text_table.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "numbered_files.h"
+#include "disflow/host/numbered_files.h"
 
 #include <algorithm>
 #include <charconv>

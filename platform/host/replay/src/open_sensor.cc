@@ -39,7 +39,7 @@ Fault OpenSensor(std::string_view address, Sensor& sensor) {
   if (uri.scheme == "sim") return OpenSimulation(uri, sensor);
   return MakeFault(Status::kInvalidUri,
                    "%s: is no kind of sensor; known: replay:DIR, sim:OBJECT and, where the program "
-                   "has them, v4l2:DEVICE, libcamera:CAMERA, dds:depth=TOPIC",
+                   "has them, v4l2:DEVICE, libcamera:CAMERA, dds:depth=TOPIC, rosbag:FILE",
                    uri.scheme.c_str());
 }
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <system_error>
 
+#include "disflow/host/numbered_files.h"
 #include "disflow/host/sequence_layout.h"
-#include "numbered_files.h"
 
 namespace disflow::host {
 namespace {

@@ -10,8 +10,8 @@
 
 #include "bop_sequence.h"
 #include "cut_recording.h"
+#include "disflow/host/numbered_files.h"
 #include "disflow/host/sequence_layout.h"
-#include "numbered_files.h"
 #include "recorded_masks.h"
 #include "stamp_text.h"
 #include "text_table.h"

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <vector>
 
+#include "disflow/host/numbered_files.h"
 #include "disflow/host/rigid_state.h"
 #include "disflow/host/sequence_layout.h"
-#include "numbered_files.h"
 #include "text_table.h"
 #include "tum_sequence.h"
 

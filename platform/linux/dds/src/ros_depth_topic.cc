@@ -3,25 +3,11 @@
 
 #include <cstring>
 
-#include "disflow/posix/dds/ros_camera_info.h"
+#include "disflow/posix/ros/ros_camera_info.h"
+#include "disflow/posix/ros/ros_stamp.h"
 
 namespace disflow::posix {
 namespace {
-
-using hal::Fault;
-
-/// The capture time; it is never made up.
-Fault ReadStamp(const ros::Header& header, StampNs& stamp_ns) {
-  constexpr std::uint32_t kNsPerS = 1'000'000'000;
-  const ros::Time& time = header.stamp;
-  if (time.sec < 0 || time.nanosec >= kNsPerS || (time.sec == 0 && time.nanosec == 0)) {
-    return hal::MakeFault(Status::kCorrupt,
-                          "header.stamp is %d.%09u, so nobody knows when it was taken", time.sec,
-                          time.nanosec);
-  }
-  stamp_ns = RosNanoseconds(time);
-  return {};
-}
 
 /// Lends the bytes to a sequence, whose own are given back.
 template <class Sequence>
@@ -50,13 +36,14 @@ bool TakeInto(RosSubscription<Message>& topic, RosSample<Message>& sample, char*
   if (!topic.TakeOne(sample)) return false;
   DropIfLong(message.header.frame_id);
   DropIfLong(message.*text);
-  image.fault = ReadStamp(message.header, image.stamp_ns);
+  const ros::Time& stamp = message.header.stamp;
+  image.fault = ReadRosStamp(stamp.sec, stamp.nanosec, image.stamp_ns);
   return true;
 }
 
 }  // namespace
 
-Fault RosDepthTopic::Subscribe(RosNode& node, const std::string& topic) {
+hal::Fault RosDepthTopic::Subscribe(RosNode& node, const std::string& topic) {
   compressed_ = IsCompressedDepthTopic(topic);
   return compressed_ ? node.Subscribe(topic, RosQos::kSensorData, packed_)
                      : node.Subscribe(topic, RosQos::kSensorData, plain_);

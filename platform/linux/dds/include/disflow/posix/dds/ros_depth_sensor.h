@@ -6,10 +6,10 @@
 #include <string>
 
 #include "disflow/hal/depth_sensor.h"
-#include "disflow/posix/dds/ros_camera_info.h"
 #include "disflow/posix/dds/ros_depth_topic.h"
 #include "disflow/posix/dds/ros_node.h"
 #include "disflow/posix/monotonic_clock.h"
+#include "disflow/posix/ros/ros_camera_info.h"
 
 namespace disflow::posix {
 

@@ -9,8 +9,8 @@
 
 #include "disflow/depth/depth_frame.h"
 #include "disflow/hal/fault.h"
-#include "disflow/posix/dds/ros_depth_decoder.h"
 #include "disflow/posix/dds/ros_node.h"
+#include "disflow/posix/ros/ros_depth_decoder.h"
 
 namespace disflow::posix {
 

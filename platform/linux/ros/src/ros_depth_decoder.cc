@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "disflow/posix/dds/ros_depth_decoder.h"
+#include "disflow/posix/ros/ros_depth_decoder.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "disflow/posix/dds/ros_camera_info.h"
+#include "disflow/posix/ros/ros_camera_info.h"
 
 #include <algorithm>
 #include <array>

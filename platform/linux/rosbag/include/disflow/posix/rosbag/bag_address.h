@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "disflow/hal/fault.h"
+#include "disflow/host/uri.h"
+
+namespace disflow::posix {
+
+/// What of which recording is played.
+struct BagOptions {
+  std::filesystem::path path;     ///< A file, or the folder that `ros2 bag record` made.
+  std::string depth_topic;        ///< sensor_msgs/Image, or CompressedImage of compressedDepth.
+  std::string info_topic;         ///< sensor_msgs/CameraInfo; empty: beside the images.
+  std::string mask_topic;         ///< sensor_msgs/Image, mono8 or 8UC1; empty: none.
+  std::optional<bool> rectified;  ///< Nothing: by the depth topic's name.
+  int first = 0;                  ///< Images left out at the start.
+  int count = std::numeric_limits<int>::max();  ///< Images played at most.
+};
+
+/// Reads `rosbag:PATH?depth=TOPIC&info=TOPIC&mask=TOPIC&rectified=yes|no&first=N&count=N`.
+/// @param options Unchanged unless the result is ok.
+[[nodiscard]] hal::Fault ParseBagUri(const host::Uri& uri, BagOptions& options);
+
+}  // namespace disflow::posix

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "disflow/posix/rosbag/bag_address.h"
+
+#include <array>
+
+#include "disflow/host/option_value.h"
+#include "disflow/posix/ros/ros_camera_info.h"
+#include "disflow/posix/shown_text.h"
+
+namespace disflow::posix {
+namespace {
+
+using hal::Fault;
+using hal::MakeFault;
+using host::Choice;
+
+constexpr std::array kYesOrNo{Choice<bool>{"yes", true}, Choice<bool>{"no", false}};
+constexpr int kMaxFrames = 100'000'000;
+
+Fault ParseTopic(std::string_view key, std::string_view value, std::string& topic) {
+  constexpr std::size_t kLongest = 255;
+  if (value.size() < 2 || value.size() > kLongest || value.front() != '/' || value.back() == '/') {
+    return MakeFault(Status::kInvalidUri, "%.*s=%s is no topic, e.g. /camera/depth/image_rect_raw",
+                     static_cast<int>(key.size()), key.data(), ShownText(value, 64).c_str());
+  }
+  topic = value;
+  return {};
+}
+
+Fault SetOption(std::string_view key, std::string_view value, BagOptions& options) {
+  if (key == "depth") return ParseTopic(key, value, options.depth_topic);
+  if (key == "info") return ParseTopic(key, value, options.info_topic);
+  if (key == "mask") return ParseTopic(key, value, options.mask_topic);
+  if (key == "rectified") {
+    return host::ParseChoice(key, value, std::span<const Choice<bool>>(kYesOrNo),
+                             options.rectified.emplace());
+  }
+  if (key == "first") return host::ParseNumber(key, value, 0, kMaxFrames, options.first);
+  if (key == "count") return host::ParseNumber(key, value, 1, kMaxFrames, options.count);
+  return MakeFault(Status::kInvalidUri,
+                   "rosbag has no option %s; known: depth, info, mask, rectified, first, count",
+                   ShownText(key, 64).c_str());
+}
+
+}  // namespace
+
+Fault ParseBagUri(const host::Uri& uri, BagOptions& options) {
+  BagOptions parsed;
+  parsed.path = uri.path;
+  for (const auto& [key, value] : uri.query) {
+    const Fault fault = SetOption(key, value, parsed);
+    if (!fault.ok()) return fault;
+  }
+  if (parsed.depth_topic.empty()) {
+    return MakeFault(Status::kInvalidUri,
+                     "depth= is missing; write rosbag:FILE?depth=TOPIC, e.g. "
+                     "depth=/camera/depth/image_rect_raw (ros2 bag info lists the topics)");
+  }
+  if (parsed.info_topic.empty()) parsed.info_topic = CameraInfoTopic(parsed.depth_topic);
+  if (!parsed.rectified) parsed.rectified = IsRectifiedTopic(parsed.depth_topic);
+  options = parsed;
+  return {};
+}
+
+}  // namespace disflow::posix

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <sqlite3.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bag_reader.h"
+#include "topic_names.h"
+
+namespace disflow::posix {
+
+/// Reads a database as rosbag2 writes it (`.db3`), row by row. Its tables are queried, nothing else
+/// of the schema is trusted.
+class SqliteReader final : public BagReader {
+ public:
+  [[nodiscard]] hal::Fault Open(const std::filesystem::path& file, const std::string& topic);
+
+  [[nodiscard]] hal::Fault Next(BagMessage& message) override;
+  [[nodiscard]] std::string topics() const override { return names_.List(); }
+
+ private:
+  struct Close {
+    void operator()(sqlite3* database) const noexcept { (void)sqlite3_close_v2(database); }
+    void operator()(sqlite3_stmt* statement) const noexcept { (void)sqlite3_finalize(statement); }
+  };
+  using Statement = std::unique_ptr<sqlite3_stmt, Close>;
+
+  [[nodiscard]] hal::Fault Prepare(const char* query, Statement& statement) const;
+  [[nodiscard]] hal::Fault CheckTables() const;
+  [[nodiscard]] hal::Fault FindTopic(const std::string& topic);
+  [[nodiscard]] hal::Fault DatabaseFault(Status status) const;
+
+  std::filesystem::path file_;
+  std::unique_ptr<sqlite3, Close> database_;
+  Statement messages_;  ///< Of the topic; null if it is not there.
+  std::string type_;
+  std::vector<std::uint8_t> row_;
+  std::vector<std::uint8_t> message_;  ///< Unpacked.
+  TopicNames names_;
+};
+
+}  // namespace disflow::posix
