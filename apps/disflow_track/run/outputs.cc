@@ -5,18 +5,23 @@
 
 namespace disflow::apps {
 
-Outputs::Outputs(const Options& options, Console& console, hal::CameraPoseHistory* camera_poses)
+Outputs::Outputs(const Options& options, const hal::SensorInfo& sensor, Console& console,
+                 hal::CameraPoseHistory* camera_poses)
     : console_(console), telemetry_(options, camera_poses, console), record_path_(options.record) {
   for (const ObjectOptions& object : options.objects) objects_.emplace_back(object.files);
-  if (!options.record.empty()) StartRecording(options.record);
+  if (!options.record.empty()) StartRecording(options, sensor);
   // Last, since it empties files that may exist.
   for (ObjectOutputs& object : objects_) object.OpenTrajectory(options.timing);
 }
 
-void Outputs::StartRecording(const std::string& folder) {
+void Outputs::StartRecording(const Options& options, const hal::SensorInfo& sensor) {
   constexpr const char* kObject = "object";
+  if (BagRecording::IsMeant(options.record)) {
+    bag_.emplace(options, sensor);
+    return;
+  }
   recording_.emplace();
-  Require(recording_->Open(folder, kObject, /*overwrite=*/false));
+  Require(recording_->Open(options.record, kObject, /*overwrite=*/false));
 }
 
 void Outputs::Deliver(std::span<const FrameResult> results, const DepthFrame* frame,
@@ -24,19 +29,26 @@ void Outputs::Deliver(std::span<const FrameResult> results, const DepthFrame* fr
   telemetry_.Send(results, age_ns, now_ns);
   for (std::size_t i = 0; i < objects_.size(); ++i)
     Attempt([&] { objects_[i].WriteRow(results[i]); });
-  if (!recording_ || frame == nullptr) return;
-  const hal::Fault fault = Record(*frame);
+  if (!is_recording()) return;
+  const hal::Fault fault = Record(frame, results);
   if (fault.ok()) return;
   Fail(std::string(fault.message) + "; nothing more is recorded after " +
-       std::to_string(recording_->frame_count()) + " frames");
+       std::to_string(recorded_frames()) + " frames");
   recording_.reset();
+  bag_.reset();
 }
 
-hal::Fault Outputs::Record(const DepthFrame& frame) {
-  hal::Fault fault = recording_->AddFrame(frame);
-  if (fault.ok() && frame.mask.given()) fault = recording_->AddMask("gt", frame.mask);
+hal::Fault Outputs::Record(const DepthFrame* frame, std::span<const FrameResult> results) {
+  if (bag_) return bag_->Add(frame, results);
+  if (frame == nullptr) return {};
+  hal::Fault fault = recording_->AddFrame(*frame);
+  if (fault.ok() && frame->mask.given()) fault = recording_->AddMask("gt", frame->mask);
   // At once: the next frame may never come.
   return fault.ok() ? recording_->CompleteFrame() : fault;
+}
+
+int Outputs::recorded_frames() const noexcept {
+  return bag_ ? bag_->frame_count() : recording_->frame_count();
 }
 
 void Outputs::WriteFlow(const TrackedObjects& objects, std::span<const FrameResult> results) {
@@ -51,10 +63,10 @@ void Outputs::WriteMeshes(const TrackedObjects& objects, double resolution_m) {
 
 bool Outputs::Finish() {
   for (ObjectOutputs& object : objects_) object.Finish(written_);
-  if (recording_) {
-    const hal::Fault fault = recording_->Finish();
+  if (is_recording()) {
+    const hal::Fault fault = bag_ ? bag_->Finish() : recording_->Finish();
     if (!fault.ok()) Fail(fault.message);
-    written_.push_back(record_path_ + ": " + std::to_string(recording_->frame_count()) + " frames");
+    written_.push_back(record_path_ + ": " + std::to_string(recorded_frames()) + " frames");
   }
   for (std::string& line : telemetry_.Summary()) written_.push_back(std::move(line));
   return complete_ && !telemetry_.AnyLost();

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "dds/bag_recording.h"
 #include "disflow/host/sequence_writer.h"
 #include "files/object_outputs.h"
 #include "links/telemetry_output.h"
@@ -23,8 +24,10 @@ class Outputs {
  public:
   /// Opens all that was asked for, so that a run never ends with nowhere to put its result.
   /// @throws Failure kWrongUsage, kOutputFailed; files that existed are then unchanged.
+  /// @param sensor Where the frames come from.
   /// @param camera_poses Where the links put the camera's poses; null if the camera stands.
-  Outputs(const Options& options, Console& console, hal::CameraPoseHistory* camera_poses);
+  Outputs(const Options& options, const hal::SensorInfo& sensor, Console& console,
+          hal::CameraPoseHistory* camera_poses);
 
   /// @param frame The input frame; null if it could not be read.
   void Deliver(std::span<const FrameResult> results, const DepthFrame* frame, std::int64_t age_ns,
@@ -48,8 +51,10 @@ class Outputs {
   [[nodiscard]] const std::vector<std::string>& written() const noexcept { return written_; }
 
  private:
-  void StartRecording(const std::string& folder);
-  [[nodiscard]] hal::Fault Record(const DepthFrame& frame);
+  void StartRecording(const Options& options, const hal::SensorInfo& sensor);
+  [[nodiscard]] hal::Fault Record(const DepthFrame* frame, std::span<const FrameResult> results);
+  [[nodiscard]] bool is_recording() const noexcept { return recording_ || bag_; }
+  [[nodiscard]] int recorded_frames() const noexcept;
   template <class Write>
   void Attempt(Write&& write);
   void Fail(const std::string& message);
@@ -57,7 +62,9 @@ class Outputs {
   Console& console_;
   TelemetryOutput telemetry_;
   std::deque<ObjectOutputs> objects_;
-  std::optional<host::SequenceWriter> recording_;  ///< Empty again after a failure.
+  // At most one of them; empty again after a failure.
+  std::optional<host::SequenceWriter> recording_;
+  std::optional<BagRecording> bag_;
   std::string record_path_;
   std::vector<std::string> written_;
   bool complete_ = true;

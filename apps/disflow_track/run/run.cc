@@ -69,7 +69,7 @@ class TrackingRun {
         ros_(OpenSensor(options, sensor_, console_)),
         info_(sensor_.get()->info()),
         inputs_(options, info_),
-        outputs_(options, console_, inputs_.camera_poses()),
+        outputs_(options, info_, console_, inputs_.camera_poses()),
         source_(*sensor_.get(), clock_, options.rate, options.frames, console_),
         objects_(MakeObjects(options)),
         dds_(options.dds_link, ChannelsOf(objects_), info_, inputs_, ros_),

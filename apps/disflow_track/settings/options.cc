@@ -189,8 +189,10 @@ void AddOutput(CLI::App& app, Options& options, CommonObjectOptions& objects) {
                  "Write the distance flow: a PLY per frame with the observed points, their "
                  "distance to the model, its gradient and their velocity")
       ->type_name("DIR");
-  app.add_option("--record", options.record, "Write the frames as a sequence for replay:DIR")
-      ->type_name("DIR");
+  app.add_option("--record", options.record,
+                 "Write the frames as a sequence for replay:DIR; or, with their results, as "
+                 "messages of ROS 2, if the name ends in .mcap (docs/ros2.md)")
+      ->type_name("DIR|FILE.mcap");
   app.add_flag("--headless", options.headless, "No live status line");
   app.add_flag_callback(
       "--no-timing", [&options] { options.timing = false; },

@@ -38,6 +38,40 @@ TEST_F(SuddenEnd, Killed_RecordingReplaysEveryFrameThatIsListed) {
   EXPECT_LE(replayed, listed + 1) << "whole but for its line feed";
 }
 
+#if defined(DISFLOW_HAS_BAG_RECORDING)
+constexpr const char* kDepth = "?depth=/disflow/depth/image_rect_raw";
+
+TEST_F(SuddenEnd, Killed_MessagesThatWereRecordedPlay) {
+  ChildProcess track(DISFLOW_TRACK,
+                     {"--sensor", kEndlessSensor, "--headless", "--record", Path("run.mcap"),
+                      "--csv", Path("run.csv")},
+                     scratch());
+  AwaitLines(Path("run.csv"), 8);
+  track.Signal(SIGKILL);
+  EXPECT_EQ(track.Wait().exit_status, -SIGKILL);
+  const Outcome replay = RunTrack(
+      {"--sensor", "rosbag:" + Path("run.mcap") + kDepth, "--csv", Path("again.csv")}, scratch());
+  EXPECT_EQ(replay.exit_status, 0) << replay.err;
+  EXPECT_NE(replay.err.find("cut short"), std::string::npos) << replay.err;
+  EXPECT_GE(apps::LoadEstimates(Path("again.csv"), 30000).rows.size(), 6U);
+}
+
+TEST_F(SuddenEnd, FileOfMessagesThatMayNotGrowFurther_KeepsItsWholeFrames) {
+  Outcome outcome;
+  {
+    const FileSizeLimit limit(3'000'000);  // of images of 900 KB
+    outcome = RunTrack(
+        {"--sensor", "sim:bottle?frames=6", "--record", Path("run.mcap"), "--headless"}, scratch());
+  }
+  EXPECT_EQ(outcome.exit_status, 4);
+  EXPECT_NE(outcome.err.find("nothing more is recorded after "), std::string::npos) << outcome.err;
+  const Outcome replay = RunTrack(
+      {"--sensor", "rosbag:" + Path("run.mcap") + kDepth, "--csv", Path("again.csv")}, scratch());
+  EXPECT_EQ(replay.exit_status, 0) << replay.err;
+  EXPECT_GE(apps::LoadEstimates(Path("again.csv"), 6).rows.size(), 1U);
+}
+#endif
+
 TEST_F(SuddenEnd, RecordingThatWasCutShort_IsReplayedWithAWord) {
   ASSERT_EQ(RunTrack({"--sensor", "sim:bottle?frames=4", "--record", Path("recorded")}, scratch())
                 .exit_status,

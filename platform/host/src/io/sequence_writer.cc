@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
+#include "disflow/host/depth_metres.h"
 #include "disflow/host/png_image.h"
 #include "disflow/host/sequence_layout.h"
 #include "file_output.h"
@@ -167,22 +168,8 @@ hal::Fault SequenceWriter::WriteDepth(const DepthView& depth) {
   const auto columns = static_cast<std::size_t>(width_px_);
   const std::size_t row_bytes = columns * sizeof(float);
   depth_bytes_.resize(sizeof(size) + static_cast<std::size_t>(height_px_) * row_bytes);
-  char* target = depth_bytes_.data();
-  std::memcpy(target, size.data(), sizeof(size));
-  target += sizeof(size);
-  for (int v = 0; v < height_px_; ++v, target += row_bytes) {
-    const std::byte* const source = depth.row(v);
-    if (depth.format == DepthFormat::kFloat32) {
-      std::memcpy(target, source, row_bytes);
-      continue;
-    }
-    for (std::size_t u = 0; u < columns; ++u) {
-      std::uint16_t raw = 0;
-      std::memcpy(&raw, source + sizeof(raw) * u, sizeof(raw));
-      const float depth_m = static_cast<float>(raw) * depth.unit_m;
-      std::memcpy(target + sizeof(depth_m) * u, &depth_m, sizeof(depth_m));
-    }
-  }
+  std::memcpy(depth_bytes_.data(), size.data(), sizeof(size));
+  CopyMetres(depth, depth_bytes_.data() + sizeof(size));
   return WriteWholeFile(dir_ / kDepthFolder / (std::to_string(frames_) + kDepthExtension),
                         {depth_bytes_.data(), depth_bytes_.size()});
 }
