@@ -44,7 +44,7 @@ hal::Fault WebService::Open() {
   if (!fault.ok()) return fault;
   lws_set_log_level(0, nullptr);
   protocols_[0] = {"http", OnEvent, sizeof(Download), 0, 0, nullptr, 0};
-  protocols_[1] = {WebServer::kProtocol, OnEvent, sizeof(Viewer*), kReceiveBytes, 0, nullptr, 0};
+  protocols_[1] = {WebServer::kProtocol, OnEvent, sizeof(Session), kReceiveBytes, 0, nullptr, 0};
   retry_.secs_since_valid_ping = static_cast<std::uint16_t>(options_.ping_after_s);
   retry_.secs_since_valid_hangup = static_cast<std::uint16_t>(options_.hang_up_after_s);
 
@@ -116,17 +116,17 @@ int WebService::Handle(lws* wsi, lws_callback_reasons reason, void* user, void* 
     case LWS_CALLBACK_HTTP_CONFIRM_UPGRADE:
       return AnswerUpgrade(wsi);
     case LWS_CALLBACK_ESTABLISHED:
-      *static_cast<Viewer**>(user) = new Viewer;
+      static_cast<Session*>(user)->viewer = new Viewer;
       ++viewers_;
       return lws_callback_on_writable(wsi) < 0 ? -1 : 0;
     case LWS_CALLBACK_CLOSED:
-      delete std::exchange(*static_cast<Viewer**>(user), nullptr);
+      delete std::exchange(static_cast<Session*>(user)->viewer, nullptr);
       --viewers_;
       return 0;
     case LWS_CALLBACK_SERVER_WRITEABLE:
-      return SendNext(wsi, **static_cast<Viewer**>(user));
+      return SendNext(wsi, *static_cast<Session*>(user)->viewer);
     case LWS_CALLBACK_RECEIVE:
-      return TakeCommand(wsi, **static_cast<Viewer**>(user),
+      return TakeCommand(wsi, *static_cast<Session*>(user)->viewer,
                          {static_cast<const std::uint8_t*>(in), size});
     case LWS_CALLBACK_EVENT_WAIT_CANCELLED:
       (void)lws_callback_on_writable_all_protocol(context_, &protocols_[1]);

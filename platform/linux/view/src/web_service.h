@@ -41,6 +41,10 @@ class WebService {
     std::size_t sent;
   };
   struct Viewer;
+  /// Of a WebSocket connection; libwebsockets zeroes it.
+  struct Session {
+    Viewer* viewer;
+  };
 
   static int OnEvent(lws* wsi, lws_callback_reasons reason, void* user, void* in, std::size_t size);
   int Handle(lws* wsi, lws_callback_reasons reason, void* user, void* in, std::size_t size);
