@@ -11,7 +11,8 @@ namespace disflow::apps {
 /// The distance flow of every frame, a PLY each, in a folder.
 class FlowOutput {
  public:
-  /// Makes the folder. @throws Failure kOutputFailed, also if it has files in it.
+  /// Makes the folder. @throws Failure kOutputFailed, also if it has files in it; what a run left
+  /// behind that was killed while it wrote a file is removed and does not count.
   explicit FlowOutput(const std::string& folder);
 
   [[nodiscard]] FlowCloud& cloud() noexcept { return cloud_; }

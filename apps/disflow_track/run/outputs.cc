@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "run/outputs.h"
 
+#include "files/numbered_names.h"
 #include "program/exit_status.h"
 
 namespace disflow::apps {
@@ -21,7 +22,12 @@ void Outputs::StartRecording(const Options& options, const hal::SensorInfo& sens
     return;
   }
   recording_.emplace();
-  Require(recording_->Open(options.record, kObject, /*overwrite=*/false));
+  const hal::Fault fault = recording_->Open(options.record, kObject, /*overwrite=*/false);
+  if (fault.status == Status::kBusy) {
+    throw Failure(kOutputFailed,
+                  options.record + ": is not empty, and a recording is never overwritten; " + kOtherFolder);
+  }
+  Require(fault);
 }
 
 void Outputs::Deliver(std::span<const FrameResult> results, const DepthFrame* frame,

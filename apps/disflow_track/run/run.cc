@@ -6,6 +6,7 @@
 
 #include "dds/dds_output.h"
 #include "disflow/posix/monotonic_clock.h"
+#include "files/numbered_names.h"
 #include "files/output_names.h"
 #include "input/frame_feed.h"
 #include "input/sensor_choice.h"
@@ -264,8 +265,9 @@ class TrackingRun {
 }  // namespace
 
 ExitStatus Run(const Options& options) {
-  RefuseSharedOutputs(options);
-  return TrackingRun(options).Run();
+  const Options numbered = NumberOutputs(options);
+  RefuseSharedOutputs(numbered);
+  return TrackingRun(numbered).Run();
 }
 
 }  // namespace disflow::apps

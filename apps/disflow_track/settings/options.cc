@@ -34,8 +34,10 @@ constexpr const char* kLinksAndStatus =
     "\n"
     "Every input frame gives one row of the CSV; its column status is 'ok' or says why the pose "
     "is\n"
-    "only a prediction. CSV and mesh share one object frame. SIGINT and SIGTERM end the run as if\n"
-    "the input had ended, a second one ends the program at once.\n"
+    "only a prediction. CSV and mesh share one object frame. {n} in the names of --csv, --mesh,\n"
+    "--mesh-picture, --flow and --record stands for a number, one more than the highest that is\n"
+    "there: run-{n}.csv. SIGINT and SIGTERM end the run as if the input had ended, a second one\n"
+    "ends the program at once.\n"
     "\n"
     "Exit status: 0 done, 2 wrong usage or settings, 3 the sensor failed, a file of the sequence\n"
     "could not be read or no frame could be tracked, 4 an output or link failed.";

@@ -102,6 +102,37 @@ TEST_F(SuddenEnd, FileThatMayNotGrowFurther_EndsTheRecordingAndNotTheRun) {
   EXPECT_NE(outcome.err.find("10 frames"), std::string::npos) << outcome.err;
 }
 
+TEST_F(SuddenEnd, StartedAgainAndAgain_EveryRunIsRecordedInAFolderOfItsOwn) {
+  const Arguments arguments = {
+      "--sensor", kEndlessSensor,         "--headless", "--csv",         Path("run-{n}.csv"),
+      "--record", Path("recordings/{n}"), "--flow",     Path("flow-{n}")};
+  for (const char* number : {"000001", "000002", "000003"}) {
+    ChildProcess track(DISFLOW_TRACK, arguments, scratch());
+    AwaitLines(Path("recordings/" + std::string(number) + "/data.txt"), 3);
+    track.Signal(SIGKILL);
+    EXPECT_EQ(track.Wait().exit_status, -SIGKILL);
+  }
+  for (const char* number : {"000001", "000002", "000003"}) {
+    const Outcome replay =
+        RunTrack({"--sensor", "replay:" + Path("recordings/" + std::string(number)), "--headless"},
+                 scratch());
+    EXPECT_EQ(replay.exit_status, 0) << replay.err;
+    EXPECT_TRUE(fs::exists(Path("run-" + std::string(number) + ".csv")));
+    EXPECT_TRUE(fs::exists(Path("flow-" + std::string(number) + "/000000.ply")));
+  }
+}
+
+TEST_F(SuddenEnd, RecordingIntoAFolderThatHasOne_IsRefusedWithAWayOut) {
+  const Arguments arguments = {"--sensor", "sim:bottle?frames=2", "--record", Path("recorded")};
+  ASSERT_EQ(RunTrack(arguments, scratch()).exit_status, 0);
+  const Outcome again = RunTrack(arguments, scratch());
+  EXPECT_EQ(again.exit_status, 4);
+  EXPECT_NE(again.err.find("recorded: is not empty, and a recording is never overwritten"),
+            std::string::npos)
+      << again.err;
+  EXPECT_NE(again.err.find("put {n} into its name"), std::string::npos) << again.err;
+}
+
 class UnexpectedSignal : public SuddenEnd, public testing::WithParamInterface<int> {};
 
 TEST_P(UnexpectedSignal, LeavesNoPartOfAFile) {

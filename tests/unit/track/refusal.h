@@ -9,13 +9,13 @@
 
 namespace disflow::apps {
 
-/// @return What is said of wrong usage; empty if the action is let through.
+/// @return What is said with that exit status; empty if the action is let through.
 template <class Action>
-[[nodiscard]] std::string RefusalOf(Action&& action) {
+[[nodiscard]] std::string RefusalOf(Action&& action, ExitStatus status = kWrongUsage) {
   try {
     action();
   } catch (const Failure& failure) {
-    EXPECT_EQ(failure.status(), kWrongUsage);
+    EXPECT_EQ(failure.status(), status);
     return failure.what();
   }
   return "";

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "settings/options.h"
+
+namespace disflow::apps {
+
+/// What stands for the number of the run in the last part of an output's name.
+inline constexpr const char* kRunNumber = "{n}";
+/// What to do about a folder that has something in it.
+inline constexpr const char* kOtherFolder =
+    "give another folder, clear this one, or put {n} into its name for a new one at each start";
+
+/// Gives every output whose name has kRunNumber in it a name that nothing has yet: all of them the
+/// same number, one more than the highest that any of them finds. A number and no time, since many
+/// boards do not know the time when they start.
+/// @throws Failure kWrongUsage, kOutputFailed if a folder cannot be read.
+[[nodiscard]] Options NumberOutputs(Options options);
+
+}  // namespace disflow::apps
