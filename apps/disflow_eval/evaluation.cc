@@ -25,6 +25,7 @@ Report Evaluate(const EvaluationInput& input) {
   report.csv = input.csv.string();
   const Sequence sequence = OpenSequence(input.sequence, input.model, input.object);
   const GroundTruth& truth = sequence.truth;
+  report.note = truth.note;
   report.estimates = LoadEstimates(input.csv, static_cast<int>(truth.T_ct.size()));
   report.model = sequence.model_name;
   const Surface& model = *sequence.model;

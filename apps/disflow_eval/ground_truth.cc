@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ground_truth.h"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 
 #include "disflow/host/bop_scene.h"
+#include "disflow/host/recorded_stamp.h"
 #include "errors.h"
 #include "text_file.h"
 
@@ -30,44 +34,67 @@ TruePose ParsePose(const fs::path& file, const Line& line) {
   return {ExpSo3(theta), Vec3d(n[0], n[1], n[2])};
 }
 
-void RequireCount(const fs::path& file, std::size_t count, std::size_t expected) {
-  if (count == expected) return;
-  throw InputError(file, "holds " + std::to_string(count) + " frames, gt/poses.txt holds " +
-                             std::to_string(expected));
+PointTwist ParseTwist(const fs::path& file, const Line& line) {
+  const std::vector<double> n = ParseNumbers(file, line, 6);
+  return {Vec3d(n[0], n[1], n[2]), Vec3d(n[3], n[4], n[5])};
 }
 
-std::vector<TruePose> LoadPoses(const fs::path& file) {
-  std::vector<TruePose> poses;
-  const std::string text = ReadFile(file);
-  LineReader lines(text);
-  for (Line line; lines.Next(line);) poses.push_back(ParsePose(file, line));
-  if (poses.empty()) throw InputError(file, "holds no pose");
-  return poses;
-}
-
-std::vector<PointTwist> LoadTwists(const fs::path& file) {
-  std::vector<PointTwist> twists;
-  const std::string text = ReadFile(file);
-  LineReader lines(text);
-  for (Line line; lines.Next(line);) {
-    const std::vector<double> n = ParseNumbers(file, line, 6);
-    twists.push_back({Vec3d(n[0], n[1], n[2]), Vec3d(n[3], n[4], n[5])});
+/// A line of data.txt, and the stamp in it.
+std::string_view ParseFrame(const fs::path& file, const Line& line, GroundTruth& truth) {
+  const std::vector<std::string_view> fields = SplitAtSpaces(line.text);
+  if (fields.size() < 2) {
+    throw InputError(file, line.number, "a frame index and a time stamp are needed");
   }
-  return twists;
+  truth.file_indices.push_back(ParseIndex(file, line, "index", fields[0]));
+  truth.stamps_s.push_back(ParseFinite(file, line, "stamp", fields[1]));
+  return fields[1];
+}
+
+void NoteCut(const fs::path& file, GroundTruth& truth) {
+  truth.note +=
+      (truth.note.empty() ? "the sequence was cut short; left out: the end of " : " and of ") +
+      file.string();
 }
 
 void LoadStamps(const fs::path& file, GroundTruth& truth) {
   const std::string text = ReadFile(file);
   LineReader lines(text);
+  std::optional<std::string_view> stamp;
   for (Line line; lines.Next(line);) {
-    const std::vector<std::string_view> fields = SplitAtSpaces(line.text);
-    if (fields.size() < 2) {
-      throw InputError(file, line.number, "a frame index and a time stamp are needed");
-    }
-    truth.file_indices.push_back(ParseIndex(file, line, "index", fields[0]));
-    truth.stamps_s.push_back(ParseFinite(file, line, "stamp", fields[1]));
+    const bool may_be_cut = lines.at_end() && !text.ends_with('\n');
+    if (may_be_cut && SplitAtSpaces(line.text).size() < 2 && stamp) return NoteCut(file, truth);
+    const std::optional<std::string_view> before = stamp;
+    stamp = ParseFrame(file, line, truth);
+    if (!may_be_cut || !before || !host::IsCutStamp(*stamp, before)) continue;
+    truth.file_indices.pop_back();
+    truth.stamps_s.pop_back();
+    NoteCut(file, truth);
   }
-  RequireCount(file, truth.stamps_s.size(), truth.T_ct.size());
+}
+
+/// Reads the frames of a file that are known whole: one that was being written when the sequence
+/// was cut short has no line in data.txt, and may be cut here.
+/// @param frames Those that are known; empty: of as many as there are.
+/// @param parse Takes the line of one.
+template <class Parse>
+void LoadFrames(const fs::path& file, std::optional<std::size_t> frames, GroundTruth& truth,
+                Parse parse) {
+  const std::string text = ReadFile(file);
+  LineReader lines(text);
+  std::size_t count = 0;
+  for (Line line; lines.Next(line); ++count) {
+    if (!frames || count < *frames) parse(line);
+  }
+  if (!frames || count == *frames) return;
+  if (count == *frames + 1 && !truth.stamps_s.empty()) return NoteCut(file, truth);
+  const char* const other = truth.stamps_s.empty() ? "gt/poses.txt" : "data.txt";
+  throw InputError(
+      file, "holds " + std::to_string(count) + " frames, " + other + " holds " +
+                std::to_string(*frames) +
+                "; a sequence that was cut short has at most one more than data.txt. If all are "
+                "of one sequence, keep the first " +
+                std::to_string(std::min(count, *frames)) +
+                " lines of each, and those frames are evaluated");
 }
 
 /// Says which objects there are, if the one asked for is not.
@@ -124,18 +151,27 @@ GroundTruth LoadGroundTruth(const fs::path& sequence_dir, const std::string& obj
   const fs::path folder = TruthFolder(sequence_dir, object);
   RequireObject(sequence_dir / "gt", folder);
   GroundTruth truth;
-  truth.T_ct = LoadPoses(folder / "poses.txt");
-  if (const fs::path file = folder / "velocities.txt"; fs::exists(file)) {
-    truth.twists = LoadTwists(file);
-    RequireCount(file, truth.twists.size(), truth.T_ct.size());
-  }
+  std::optional<std::size_t> frames;
   if (const fs::path file = sequence_dir / "data.txt"; fs::exists(file)) {
     LoadStamps(file, truth);
-  } else {
-    for (std::size_t i = 0; i < truth.T_ct.size(); ++i) {
-      truth.file_indices.push_back(static_cast<int>(i));
+    frames = truth.stamps_s.size();
+    if (*frames == 0) {
+      throw InputError(file,
+                       "lists no frame; a sequence that was cut short before its first frame was "
+                       "complete has to be made anew");
     }
   }
+  const fs::path poses = folder / "poses.txt";
+  LoadFrames(poses, frames, truth,
+             [&](const Line& line) { truth.T_ct.push_back(ParsePose(poses, line)); });
+  if (truth.T_ct.empty()) throw InputError(poses, "holds no pose");
+  if (const fs::path file = folder / "velocities.txt"; fs::exists(file)) {
+    LoadFrames(file, truth.T_ct.size(), truth,
+               [&](const Line& line) { truth.twists.push_back(ParseTwist(file, line)); });
+  }
+  if (frames) return truth;
+  for (std::size_t i = 0; i < truth.T_ct.size(); ++i)
+    truth.file_indices.push_back(static_cast<int>(i));
   return truth;
 }
 

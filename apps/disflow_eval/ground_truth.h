@@ -15,9 +15,11 @@ struct GroundTruth {
   std::vector<PointTwist> twists;  ///< Empty if the sequence has no gt/velocities.txt.
   std::vector<int> file_indices;   ///< Number in the names of a frame's depth and mask files.
   std::vector<double> stamps_s;    ///< Empty if the sequence has no data.txt.
+  std::string note;  ///< What was left out of a sequence that was cut short; empty: nothing.
 };
 
-/// Reads gt/poses.txt, gt/velocities.txt and data.txt of a sequence in the Fast-YCB layout.
+/// Reads gt/poses.txt, gt/velocities.txt and data.txt of a sequence in the Fast-YCB layout. Of one
+/// that was cut short (see SequenceWriter) the frames that data.txt lists.
 /// @param object Of a sequence with several objects: they have a folder of their name in gt/.
 /// @throws InputError naming file, line and reason.
 [[nodiscard]] GroundTruth LoadGroundTruth(const std::filesystem::path& sequence_dir,

@@ -67,6 +67,9 @@ int WriteAll(const Report& report, const Options& options) {
       status = kOutputFailed;
     }
   };
+  if (!report.note.empty()) {
+    std::fprintf(stderr, "disflow_eval: %s: %s\n", report.sequence.c_str(), report.note.c_str());
+  }
   std::vector<disflow::apps::Plot> plots;
   attempt([&] { Print(disflow::apps::FormatTable(report)); });
   if (!options.json.empty()) {

@@ -29,6 +29,7 @@ struct Report {
   Report& operator=(Report&&) = default;
 
   std::string sequence;
+  std::string note;  ///< What was left out of the sequence; empty: nothing.
   std::string csv;
   std::string model;
   std::size_t model_points = 0;

@@ -35,6 +35,8 @@ class LineReader {
   explicit LineReader(std::string_view text) : rest_(text) {}
   /// @return false if there is no other line.
   [[nodiscard]] bool Next(Line& line);
+  /// Whether nothing follows the line that Next() gave last.
+  [[nodiscard]] bool at_end() const { return rest_.empty(); }
 
  private:
   std::string_view rest_;

@@ -153,22 +153,30 @@ Fault WriteFrame(disflow::host::Simulation& simulation, int index,
   return fault;
 }
 
+/// Where the truth of an object is. It is made, if need be.
+fs::path TruthFolder(const fs::path& out_dir, const std::vector<std::string>& names,
+                     std::size_t object) {
+  const fs::path folder = names.size() > 1 ? out_dir / "gt" / names[object] : out_dir / "gt";
+  std::error_code error;  // Whoever writes there says what is wrong.
+  fs::create_directories(folder, error);
+  return folder;
+}
+
 Fault WriteSequence(disflow::host::Simulation& simulation, const Arguments& arguments) {
   disflow::host::SequenceWriter writer;
   const SimulationOptions& options = simulation.options();
+  const std::vector<std::string> names = ObjectNames(options);
   Fault fault = writer.Open(arguments.out_dir, ObjectName(options), arguments.force);
+  // First: a sequence that is cut short can be evaluated as far as it goes.
+  for (std::size_t i = 0; i < names.size() && fault.ok(); ++i)
+    fault = WriteObj(TruthFolder(arguments.out_dir, names, i) / "model.obj", simulation.mesh(i));
   for (int index = 0; index < options.frames && fault.ok(); ++index) {
     if (simulation.IsDropped(index)) continue;
     fault = WriteFrame(simulation, index, arguments.mask_sets, writer);
   }
   if (fault.ok()) fault = writer.Finish();
-  const std::vector<std::string> names = ObjectNames(options);
   std::string all;
-  for (std::size_t i = 0; i < names.size() && fault.ok(); ++i) {
-    const fs::path folder = arguments.out_dir / "gt" / (names.size() > 1 ? names[i] : "");
-    fault = WriteObj(folder / "model.obj", simulation.mesh(i));
-    all += (i > 0 ? ", " : "") + names[i];
-  }
+  for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
   if (fault.ok()) {
     std::printf("%d frames of %s in %s\n", writer.frame_count(), all.c_str(),
                 arguments.out_dir.c_str());

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
+#include <signal.h>
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "child_process.h"
+#include "endless_run.h"
 #include "scratch_folder.h"
 
 namespace disflow::test {
@@ -68,6 +71,36 @@ TEST_F(SimulatedSequence, JudgedByItsAddress_HasTheFiguresOfItsFiles) {
   const auto lines = std::count(frames.begin(), frames.end(), '\n');
   EXPECT_GT(lines, 10);
   EXPECT_LT(lines, 21) << "dropped frames have no line";
+}
+
+TEST_F(SimulatedSequence, CutShortByAKill_IsEvaluatedAsFarAsItGoes) {
+  ChildProcess simulator(DISFLOW_SIM, {Path("cut"), "--object", "bottle", "--frames", "30000"},
+                         scratch());
+  AwaitLines(Path("cut/data.txt"), 10);
+  simulator.Signal(SIGKILL);
+  ASSERT_EQ(simulator.Wait().exit_status, -SIGKILL);
+  const Outcome track = RunTrack(
+      {"--sensor", "replay:" + Path("cut"), "--csv", Path("run.csv"), "--headless"}, scratch());
+  ASSERT_EQ(track.exit_status, 0) << track.err;
+  const Outcome outcome =
+      ChildProcess(DISFLOW_EVAL, {Path("cut"), "--csv", Path("run.csv")}, scratch()).Wait();
+  EXPECT_EQ(outcome.exit_status, 0) << outcome.err;
+}
+
+TEST_F(SimulatedSequence, TruthOfAFrameThatWasNotWritten_IsLeftOutWithAWord) {
+  ASSERT_EQ(RunSim({Path("cut"), "--object", "bottle", "--frames", "12"}, scratch()).exit_status,
+            0);
+  const std::filesystem::path stamps = Path("cut/data.txt");
+  std::filesystem::resize_file(stamps, std::filesystem::file_size(stamps) - 3);
+  ASSERT_EQ(RunTrack({"--sensor", "replay:" + Path("cut"), "--csv", Path("run.csv"), "--headless"},
+                     scratch())
+                .exit_status,
+            0);
+  const Outcome outcome =
+      ChildProcess(DISFLOW_EVAL, {Path("cut"), "--csv", Path("run.csv")}, scratch()).Wait();
+  EXPECT_EQ(outcome.exit_status, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("the sequence was cut short; left out: the end of"), std::string::npos)
+      << outcome.err;
 }
 
 TEST_F(SimulatedSequence, NoisySurface_KnowsHowFarOffItIs) {

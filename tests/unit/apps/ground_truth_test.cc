@@ -82,6 +82,71 @@ TEST_F(GroundTruthTest, FilesOfDifferentLength_AreRefused) {
                       Refusal());
 }
 
+/// A sequence whose program was killed: truth of a frame is written before its line in data.txt.
+class CutTruth : public GroundTruthTest {
+ protected:
+  static constexpr const char* kPose = "0 0 1 1 0 0 0.1\n";
+  static constexpr const char* kTwist = "1 2 3 4 5 6\n";
+
+  void Write(const std::string& poses, const std::string& twists, const std::string& stamps) const {
+    dir_.Write("gt/poses.txt", poses);
+    dir_.Write("gt/velocities.txt", twists);
+    dir_.Write("data.txt", stamps);
+  }
+  /// @return What was left out.
+  std::string NoteOf(std::size_t frames) const {
+    const GroundTruth truth = LoadGroundTruth(dir_.path());
+    EXPECT_EQ(truth.T_ct.size(), frames);
+    EXPECT_EQ(truth.twists.size(), frames);
+    EXPECT_EQ(truth.stamps_s.size(), frames);
+    EXPECT_EQ(truth.file_indices.size(), frames);
+    return truth.note;
+  }
+  static std::string Twice(const std::string& text) { return text + text; }
+};
+
+TEST_F(CutTruth, WholeSequence_IsTakenWithoutAWord) {
+  Write(Twice(kPose), Twice(kTwist), "0 0.000000000\n1 0.033333333\n");
+  EXPECT_EQ(NoteOf(2), "");
+}
+
+TEST_F(CutTruth, FrameWithoutALineInDataTxt_IsLeftOutWithAWord) {
+  Write(Twice(kPose), kTwist, "0 0.000000000\n");
+  EXPECT_PRED_FORMAT2(IsSubstring, "poses.txt", NoteOf(1));
+  Write(Twice(kPose), Twice(kTwist), "0 0.000000000\n");
+  EXPECT_PRED_FORMAT2(IsSubstring, "velocities.txt", NoteOf(1));
+}
+
+TEST_F(CutTruth, LineThatIsCut_IsNotParsed) {
+  Write(std::string(kPose) + "0 0 1 1 ", std::string(kTwist) + "nonsens", "0 0.000000000\n");
+  EXPECT_PRED_FORMAT2(IsSubstring, "cut short", NoteOf(1));
+}
+
+TEST_F(CutTruth, StampThatIsCut_LeavesItsFrameOut) {
+  for (const char* cut : {"1", "1 ", "1 0.0333"}) {
+    Write(Twice(kPose), Twice(kTwist), std::string("0 0.000000000\n") + cut);
+    EXPECT_PRED_FORMAT2(IsSubstring, "data.txt", NoteOf(1)) << cut;
+  }
+}
+
+TEST_F(CutTruth, MissingLineFeedAlone_CostsNothing) {
+  Write(Twice(kPose), Twice(kTwist), "0 0.000000000\n1 0.033333333");
+  EXPECT_EQ(NoteOf(2), "");
+}
+
+TEST_F(CutTruth, FilesThatDifferByMore_AreRefusedWithWhatToDo) {
+  Write(Twice(Twice(kPose)), Twice(Twice(kTwist)), "0 0.000000000\n1 0.033333333\n");
+  EXPECT_PRED_FORMAT2(IsSubstring, "poses.txt: holds 4 frames, data.txt holds 2", Refusal());
+  EXPECT_PRED_FORMAT2(IsSubstring, "keep the first 2 lines of each", Refusal());
+  Write(kPose, kTwist, "0 0.000000000\n1 0.033333333\n");
+  EXPECT_PRED_FORMAT2(IsSubstring, "poses.txt: holds 1 frames, data.txt holds 2", Refusal());
+}
+
+TEST_F(CutTruth, NoFrameAtAll_IsRefused) {
+  Write(kPose, kTwist, "");
+  EXPECT_PRED_FORMAT2(IsSubstring, "data.txt: lists no frame", Refusal());
+}
+
 TEST_F(GroundTruthTest, StampFileOfOneColumn_IsRefused) {
   dir_.Write("gt/poses.txt", "0 0 1 1 0 0 0.1\n");
   dir_.Write("data.txt", "0.25\n");

@@ -2,22 +2,15 @@
 #include "cut_recording.h"
 
 #include <algorithm>
+#include <optional>
 #include <string>
 
+#include "disflow/host/recorded_stamp.h"
 #include "float_depth_file.h"
 
 namespace disflow::host {
-namespace {
 
 namespace fs = std::filesystem;
-
-std::size_t Decimals(const TableRow& row) {
-  if (row.fields.size() < 2) return 0;
-  const std::size_t point = row.fields[1].find('.');
-  return point == std::string_view::npos ? 0 : row.fields[1].size() - point - 1;
-}
-
-}  // namespace
 
 void LeaveOut(const std::string& reason, SequenceIndex& index) {
   ++index.cut_frames;
@@ -28,11 +21,11 @@ bool EndsWithinItsLastLine(const TextTable& stamps) {
   const std::vector<TableRow>& rows = stamps.rows();
   if (rows.empty() || stamps.ends_with_line_feed()) return false;
   if (rows.back().fields.size() < 2) return true;
-  // Others may leave out the last line feed, but a recording's stamps have nine decimals each: one
-  // with fewer would be a wrong time.
-  constexpr std::size_t kRecordedDecimals = 9;
-  const bool is_recorded = rows.size() == 1 || Decimals(rows[rows.size() - 2]) == kRecordedDecimals;
-  return is_recorded && Decimals(rows.back()) < kRecordedDecimals;
+  const TableRow* const before = rows.size() > 1 ? &rows[rows.size() - 2] : nullptr;
+  const std::string_view stamp_before =
+      before != nullptr && before->fields.size() > 1 ? before->fields[1] : "";
+  return IsCutStamp(rows.back().fields[1],
+                    before != nullptr ? std::optional(stamp_before) : std::nullopt);
 }
 
 hal::Fault LeaveOutUnlisted(const fs::path& stamps, const std::vector<NumberedFile>& unlisted,
