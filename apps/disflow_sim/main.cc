@@ -156,7 +156,7 @@ Fault WriteFrame(disflow::host::Simulation& simulation, int index,
 /// Where the truth of an object is. It is made, if need be.
 fs::path TruthFolder(const fs::path& out_dir, const std::vector<std::string>& names,
                      std::size_t object) {
-  const fs::path folder = names.size() > 1 ? out_dir / "gt" / names[object] : out_dir / "gt";
+  fs::path folder = names.size() > 1 ? out_dir / "gt" / names[object] : out_dir / "gt";
   std::error_code error;  // Whoever writes there says what is wrong.
   fs::create_directories(folder, error);
   return folder;

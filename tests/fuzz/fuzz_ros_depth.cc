@@ -6,36 +6,13 @@
 #include "disflow/posix/ros/ros_camera_info.h"
 #include "disflow/posix/ros/ros_depth_decoder.h"
 #include "file_in_memory.h"
+#include "fuzzed_numbers.h"
 
 namespace {
 
 using namespace disflow;
+using fuzz::FuzzedNumbers;
 using fuzz::Require;
-
-/// Numbers and texts from the front of the fuzzer's bytes; zeros when they are used up.
-class Input {
- public:
-  Input(const std::uint8_t* data, std::size_t size) : rest_(data, data + size) {}
-
-  template <class T>
-  T Take() {
-    T value{};
-    const std::size_t size = std::min(sizeof(T), rest_.size());
-    if (size > 0) std::memcpy(&value, rest_.data(), size);
-    rest_.erase(rest_.begin(), rest_.begin() + static_cast<std::ptrdiff_t>(size));
-    return value;
-  }
-  std::string TakeText() {
-    const std::size_t size = std::min<std::size_t>(Take<std::uint8_t>(), rest_.size());
-    std::string text(rest_.begin(), rest_.begin() + static_cast<std::ptrdiff_t>(size));
-    rest_.erase(rest_.begin(), rest_.begin() + static_cast<std::ptrdiff_t>(size));
-    return text;
-  }
-  std::vector<std::uint8_t>& rest() { return rest_; }
-
- private:
-  std::vector<std::uint8_t> rest_;
-};
 
 /// Reads every pixel: the sanitizers see what lies outside.
 void CheckImage(const hal::Fault& fault, const DepthView& depth) {
@@ -53,7 +30,7 @@ void CheckImage(const hal::Fault& fault, const DepthView& depth) {
   Require(sum <= 255U * static_cast<std::size_t>(depth.stride_bytes * depth.height_px));
 }
 
-void CheckPlain(Input& input, posix::RosDepthDecoder& decoder) {
+void CheckPlain(FuzzedNumbers& input, posix::RosDepthDecoder& decoder) {
   const std::string encoding = input.TakeText();
   posix::RosImage image{.encoding = encoding,
                         .width_px = input.Take<std::uint32_t>(),
@@ -66,14 +43,14 @@ void CheckPlain(Input& input, posix::RosDepthDecoder& decoder) {
   CheckImage(fault, depth);
 }
 
-void CheckPacked(Input& input, posix::RosDepthDecoder& decoder) {
+void CheckPacked(FuzzedNumbers& input, posix::RosDepthDecoder& decoder) {
   const std::string format = input.TakeText();
   DepthView depth;
   const hal::Fault fault = decoder.DecodeCompressed(format, input.rest(), depth);
   CheckImage(fault, depth);
 }
 
-void CheckInfo(Input& input) {
+void CheckInfo(FuzzedNumbers& input) {
   const std::string model = input.TakeText();
   posix::RosIntrinsics intrinsics;
   const auto k = input.Take<std::array<double, 9>>();
@@ -103,7 +80,7 @@ void CheckInfo(Input& input) {
 /// The first byte chooses the message and whether the size is fixed.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
-  Input input(data + 1, size - 1);
+  FuzzedNumbers input(data + 1, size - 1);
   posix::RosDepthDecoder decoder;
   if ((data[0] & 4U) != 0) decoder.FixSize(8, 6);
   switch (data[0] % 4) {

@@ -1,8 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <sys/stat.h>
-#include <unistd.h>
-
-#include <filesystem>
 #include <vector>
 
 #include "camera_file.h"
@@ -20,16 +16,10 @@ using fuzz::Require;
 
 /// A folder in which every text is the fuzzer's file.
 const std::filesystem::path& Folder(const fuzz::FileInMemory& file) {
-  static const std::filesystem::path folder = [&file] {
-    std::string name = "/tmp/disflow_fuzz_XXXXXX";
-    if (::mkdtemp(name.data()) == nullptr) std::abort();
-    for (const char* link : {"/cam_K.json", "/scene_camera.json", "/scene_gt.json", "/depth.txt",
-                             "/groundtruth.txt"}) {
-      if (::symlink(file.path().c_str(), (name + link).c_str()) != 0) std::abort();
-    }
-    return std::filesystem::path(name);
-  }();
-  return folder;
+  static const fuzz::FolderWithFile folder(
+      file,
+      {"cam_K.json", "scene_camera.json", "scene_gt.json", "depth.txt", "groundtruth.txt"});
+  return folder.path();
 }
 
 void CheckCamera(const fuzz::FileInMemory& file) {

@@ -13,6 +13,13 @@ using posix::RosQos;
 
 }  // namespace
 
+void PutMask(const ros::Image& image, const DdsClock& clock, MaskMailbox& masks) {
+  const std::string_view encoding = posix::TextOf(image.encoding);
+  const bool is_mask = encoding == "mono8" || encoding == "8UC1";
+  masks.Put(clock.FromRos(posix::RosNanoseconds(image.header.stamp)), is_mask ? image.width : 0,
+            is_mask ? image.height : 0, image.step, {image.data._buffer, image.data._length});
+}
+
 DdsInputs::DdsInputs(const DdsAddress& address, posix::RosNode& node, PoseMailbox* poses,
                      MaskMailbox* masks)
     : poses_(poses), masks_(masks), transforms_(address.world_frame, address.camera_frame) {
@@ -29,7 +36,9 @@ DdsInputs::DdsInputs(const DdsAddress& address, posix::RosNode& node, PoseMailbo
 void DdsInputs::Turn(const DdsClock& clock) {
   if (poses_ != nullptr) TakeTransforms(clock);
   if (masks_ == nullptr) return;
-  images_.TakeAll([this, &clock](const ros::Image& image) { TakeMask(image, clock); });
+  images_.TakeAll([this, &clock](const ros::Image& image) {
+    if (clock.known()) PutMask(image, clock, *masks_);
+  });
 }
 
 void DdsInputs::TakeTransforms(const DdsClock& clock) {
@@ -44,15 +53,6 @@ void DdsInputs::TakeTransforms(const DdsClock& clock) {
   };
   tf_static_.TakeAll([&add](const ros::TFMessage& message) { add(message, true); });
   tf_.TakeAll([&add](const ros::TFMessage& message) { add(message, false); });
-}
-
-void DdsInputs::TakeMask(const ros::Image& image, const DdsClock& clock) {
-  const std::string_view encoding = image.encoding == nullptr ? "" : image.encoding;
-  const bool is_mask = encoding == "mono8" || encoding == "8UC1";
-  if (!clock.known()) return;
-  // What is no mask is told as one of a wrong size, with nothing in it.
-  masks_->Put(clock.FromRos(posix::RosNanoseconds(image.header.stamp)), is_mask ? image.width : 0,
-              is_mask ? image.height : 0, image.step, {image.data._buffer, image.data._length});
 }
 
 }  // namespace disflow::apps

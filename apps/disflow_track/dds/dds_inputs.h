@@ -13,6 +13,10 @@
 
 namespace disflow::apps {
 
+/// Hands a mask on. What is no mask is told as one of a wrong size, with nothing in it.
+/// @param clock Is known().
+void PutMask(const posix::ros::Image& image, const DdsClock& clock, MaskMailbox& masks);
+
 /// What the program takes from ROS 2: masks and the camera's pose.
 class DdsInputs {
  public:
@@ -26,7 +30,6 @@ class DdsInputs {
 
  private:
   void TakeTransforms(const DdsClock& clock);
-  void TakeMask(const posix::ros::Image& image, const DdsClock& clock);
 
   PoseMailbox* poses_;
   MaskMailbox* masks_;

@@ -12,24 +12,27 @@ namespace ros = posix::ros;
 }  // namespace
 
 void DdsQueries::Receive(const DdsFrames& frames) {
-  service_.requests.TakeAll([this, &frames](const ros::QueryRequest& request) {
-    Job job;
-    job.header = request.header;
-    const std::size_t count = request.points._length;
-    if (count > kMaxPoints || jobs_.size() >= kMaxRequests) {
-      Reply(job,
-            count > kMaxPoints ? "too many points: at most 2000 fit into one request"
-                               : "too many requests at once: ask again",
-            0, frames);
-      return;
-    }
-    for (std::size_t i = 0; i < count; ++i) {
-      const ros::Point& x = request.points._buffer[i];
-      job.points_m.emplace_back(static_cast<float>(x.x), static_cast<float>(x.y),
-                                static_cast<float>(x.z));
-    }
-    jobs_.push_back(std::move(job));
-  });
+  service_.requests.TakeAll(
+      [this, &frames](const ros::QueryRequest& request) { Take(request, frames); });
+}
+
+void DdsQueries::Take(const ros::QueryRequest& request, const DdsFrames& frames) {
+  Job job;
+  job.header = request.header;
+  const std::size_t count = request.points._length;
+  if (count > kMaxPoints || jobs_.size() >= kMaxRequests) {
+    Reply(job,
+          count > kMaxPoints ? "too many points: at most 2000 fit into one request"
+                             : "too many requests at once: ask again",
+          0, frames);
+    return;
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const ros::Point& x = request.points._buffer[i];
+    job.points_m.emplace_back(static_cast<float>(x.x), static_cast<float>(x.y),
+                              static_cast<float>(x.z));
+  }
+  jobs_.push_back(std::move(job));
 }
 
 void DdsQueries::Answer(ModelSnapshot& snapshot, std::int64_t ros_ns, const DdsFrames& frames) {

@@ -27,6 +27,8 @@ class DdsQueries {
 
   /// Takes what has come in; refuses at once what is too much.
   void Receive(const DdsFrames& frames);
+  /// The same for one request.
+  void Take(const posix::ros::QueryRequest& request, const DdsFrames& frames);
   /// @return true if a request waits that no copy was asked for yet.
   [[nodiscard]] bool NeedsSnapshot() const noexcept { return asked_ < jobs_.size(); }
   /// A copy was asked for: it will answer all requests that are here now.

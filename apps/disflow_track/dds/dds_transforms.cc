@@ -2,15 +2,19 @@
 #include "dds/dds_transforms.h"
 
 #include <algorithm>
+#include <string_view>
 #include <utility>
 
 namespace disflow::apps {
 namespace {
 
 /// ROS 1 began names with a slash, and some still do.
+/// @return Empty if it is none.
 std::string FrameName(const char* text) {
-  const std::string name = text == nullptr ? "" : text;
-  return name.starts_with('/') ? name.substr(1) : name;
+  std::string_view name = posix::TextOf(text);
+  if (name.starts_with('/')) name.remove_prefix(1);
+  // A thousand names of megabytes would take all memory.
+  return name.size() > DdsTransforms::kMaxName ? std::string() : std::string(name);
 }
 
 }  // namespace

@@ -16,6 +16,7 @@ class DdsTransforms {
  public:
   static constexpr std::size_t kMaxFrames = 1024;  ///< Of the tree; those beyond are left out.
   static constexpr int kMaxDepth = 64;
+  static constexpr std::size_t kMaxName = 255;  ///< A longer one is no frame's.
 
   /// Where the camera is.
   struct CameraPose {

@@ -15,7 +15,7 @@ namespace disflow::test {
 namespace {
 
 constexpr rlim_t kMemory_bytes = rlim_t{256} << 20U;
-constexpr rlim_t kTime_s = 3;
+constexpr rlim_t kTime_s = 1;
 
 void Limit(int resource, rlim_t value) {
   const rlimit limit{.rlim_cur = value, .rlim_max = value};

@@ -12,7 +12,7 @@ struct LimitedOutcome {
   std::string message;  ///< What it returned.
 };
 
-/// Runs a function in a process of its own that has 256 MB more than this one, and 3 s of a
+/// Runs a function in a process of its own that has 256 MB more than this one, and 1 s of a
 /// processor's time: far more than it needs, far less than what grows with the square of the input
 /// takes.
 [[nodiscard]] LimitedOutcome RunLimited(const std::function<std::string()>& function);

@@ -34,6 +34,8 @@ bool RawClient::Send(std::string_view bytes) {
   return !closed_;
 }
 
+void RawClient::EndSending() { (void)shutdown(socket_.get(), SHUT_WR); }
+
 bool RawClient::Receive(std::string& text) {
   pollfd ready = {socket_.get(), POLLIN, 0};
   if (closed_ || poll(&ready, 1, kPatience_ms) <= 0) return false;

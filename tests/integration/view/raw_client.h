@@ -15,6 +15,8 @@ class RawClient {
 
   /// @return false if the other end has closed already.
   bool Send(std::string_view bytes);
+  /// Says that nothing more will be sent; what comes can still be read.
+  void EndSending();
   /// Reads until `end` stands in what came, or the connection is closed, or nothing came for long.
   /// @return All that has come since the last call.
   std::string ReadUntil(std::string_view end);

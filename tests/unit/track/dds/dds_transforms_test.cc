@@ -56,6 +56,17 @@ TEST_F(DdsTransformsTest, ChainThatMoves_GivesAPoseForEachOfItsMessages) {
   EXPECT_FALSE(transforms_.Camera()) << "nothing of the chain has come since";
 }
 
+TEST_F(DdsTransformsTest, NamesOfMegabytes_AreLeftOut) {
+  const std::string long_name(DdsTransforms::kMaxName + 1, 'a');
+  tf_.Say("map", long_name, kStart_ns, 1.0);
+  tf_.Say(long_name, "camera", kStart_ns, 1.0);
+  EXPECT_FALSE(transforms_.Camera());
+  const std::string longest_name(DdsTransforms::kMaxName, 'a');
+  tf_.Say("map", longest_name, kStart_ns, 1.0);
+  tf_.Say(longest_name, "camera", kStart_ns, 1.0);
+  EXPECT_TRUE(transforms_.Camera());
+}
+
 TEST_F(DdsTransformsTest, FixedLinksAlone_AreNoMotion) {
   tf_.Say("map", "camera", 0, 1.0, /*fixed=*/true);
   EXPECT_FALSE(transforms_.Camera());
