@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cstdio>
 #include <exception>
+#include <system_error>
 
 #include "input/sensor_choice.h"
 #include "program/exit_status.h"
+#include "program/out_of_memory.h"
 #include "program/stop_signal.h"
 #include "run/run.h"
 #include "settings/options.h"
@@ -37,11 +39,19 @@ ExitStatus Main(int argc, char** argv) {
 }  // namespace disflow::apps
 
 int main(int argc, char** argv) {
+  disflow::apps::EndWhenOutOfMemory();
   try {
     return disflow::apps::Main(argc, argv);
   } catch (const disflow::apps::Failure& failure) {
     std::fprintf(stderr, "disflow_track: %s\n", failure.what());
     return failure.status();
+  } catch (const std::system_error& error) {
+    // Of the standard library's, which says no more than "Resource temporarily unavailable".
+    std::fprintf(stderr,
+                 "disflow_track: a thread cannot be started: %s; allow more threads or memory "
+                 "(ulimit -u and -v, TasksMax= and MemoryMax= of the service)\n",
+                 error.what());
+    return disflow::apps::kInputFailed;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "disflow_track: %s\n", error.what());
     return disflow::apps::kInputFailed;

@@ -40,7 +40,7 @@ constexpr const char* kLinksAndStatus =
     "ends the program at once.\n"
     "\n"
     "Exit status: 0 done, 2 wrong usage or settings, 3 the sensor failed, a file of the sequence\n"
-    "could not be read or no frame could be tracked, 4 an output or link failed.";
+    "could not be read, no frame could be tracked or memory ran out, 4 an output or link failed.";
 
 constexpr const char* kRosbagHelp =
     "  rosbag:PATH?depth=TOPIC\n"

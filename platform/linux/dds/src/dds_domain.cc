@@ -2,6 +2,7 @@
 #include "disflow/posix/dds/dds_domain.h"
 
 #include <arpa/inet.h>
+#include <sys/mman.h>
 
 #include <atomic>
 #include <cstdio>
@@ -49,9 +50,13 @@ struct LastWords {
   std::string text;
 };
 
-void KeepMessage(void* kept, const dds_log_data_t* data) {
-  std::string_view text(data->message, data->size);
+std::string_view WithoutLineFeed(std::string_view text) noexcept {
   while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.remove_suffix(1);
+  return text;
+}
+
+void KeepMessage(void* kept, const dds_log_data_t* data) {
+  const std::string_view text = WithoutLineFeed({data->message, data->size});
   auto& words = *static_cast<LastWords*>(kept);
   const std::lock_guard lock(words.mutex);
   words.text.assign(text);
@@ -63,13 +68,33 @@ void SayTheFirst(void*, const dds_log_data_t* data) {
   static std::atomic<int> left = kMost;
   const int before = left.load() > 0 ? left.fetch_sub(1) : 0;
   if (before <= 0) return;
-  std::fprintf(stderr, "%.*s", static_cast<int>(data->size), data->message);
+  // Its security plugins end their lines with nothing.
+  const std::string_view text = WithoutLineFeed({data->message, data->size});
+  std::fprintf(stderr, "Cyclone DDS: %.*s\n", static_cast<int>(text.size()), text.data());
   if (before == 1) std::fputs("Cyclone DDS: what it has to say further is left out\n", stderr);
+}
+
+/// Cyclone DDS ends the program without a word when it gets no memory.
+hal::Fault CheckMemory(const DdsNetwork& network) {
+  // Stacks and heaps of its threads; address space, of which it uses a small part.
+  constexpr std::size_t kNeeded_bytes = std::size_t{192} << 20U;
+  void* const room =
+      ::mmap(nullptr, kNeeded_bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (room != MAP_FAILED) {
+    (void)::munmap(room, kNeeded_bytes);
+    return {};
+  }
+  return hal::MakeFault(Status::kIoError,
+                        "dds: domain %u cannot be opened: the %zu MB of address space that Cyclone "
+                        "DDS needs are not there; allow more (ulimit -v)",
+                        static_cast<unsigned>(network.domain), kNeeded_bytes >> 20U);
 }
 
 }  // namespace
 
 hal::Fault OpenDomain(const DdsNetwork& network, DdsEntity& domain) {
+  const hal::Fault fault = CheckMemory(network);
+  if (!fault.ok()) return fault;
   LastWords reason;
   dds_set_log_sink(KeepMessage, &reason);
   const dds_entity_t handle = dds_create_domain(network.domain, Configuration(network).c_str());

@@ -3,9 +3,11 @@
 
 #include <arpa/inet.h>
 #include <netinet/in.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 
 #include "disflow/posix/file_descriptor.h"
@@ -59,6 +61,19 @@ hal::Fault CheckListening(const WebAddress& address) {
     return Explain(errno, address);
   }
   return {};
+}
+
+hal::Fault CheckDescriptors(const WebAddress& address, unsigned needed) {
+  rlimit limit{};
+  // What the rest of the program has open comes on top.
+  constexpr unsigned kOthers = 24;
+  const rlim_t wanted = needed + kOthers;
+  if (getrlimit(RLIMIT_NOFILE, &limit) != 0 || limit.rlim_cur >= wanted) return {};
+  return hal::MakeFault(Status::kIoError,
+                        "%s: only %ju files may be open at once, %ju are needed; allow more "
+                        "(ulimit -n, LimitNOFILE= of the service)",
+                        address.Url(address.port).c_str(), std::uintmax_t{limit.rlim_cur},
+                        std::uintmax_t{wanted});
 }
 
 }  // namespace disflow::posix

@@ -10,4 +10,10 @@ namespace disflow::posix {
 /// @return kBusy, kPermissionDenied, kNotFound, kIoError.
 [[nodiscard]] hal::Fault CheckListening(const WebAddress& address);
 
+/// Whether the program may have as many files open as a server needs: with fewer libwebsockets
+/// listens to nothing, or turns round and round over connections that it cannot accept.
+/// @param needed Connections and what the server itself opens.
+/// @return kIoError.
+[[nodiscard]] hal::Fault CheckDescriptors(const WebAddress& address, unsigned needed);
+
 }  // namespace disflow::posix

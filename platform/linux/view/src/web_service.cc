@@ -12,6 +12,7 @@ namespace disflow::posix {
 namespace {
 
 constexpr std::size_t kReceiveBytes = 64;
+constexpr unsigned kOwnDescriptors = 8;
 constexpr int kDownload_s = 30;
 constexpr int kCommandsPerSecond = 20;
 constexpr lws_usec_t kSecond_us = 1'000'000;
@@ -40,7 +41,9 @@ WebService::~WebService() {
 }
 
 hal::Fault WebService::Open() {
-  const hal::Fault fault = CheckListening(options_.address);
+  const auto connections = static_cast<unsigned>(options_.max_connections);
+  hal::Fault fault = CheckListening(options_.address);
+  if (fault.ok()) fault = CheckDescriptors(options_.address, connections + kOwnDescriptors);
   if (!fault.ok()) return fault;
   lws_set_log_level(0, nullptr);
   protocols_[0] = {"http", OnEvent, sizeof(Download), 0, 0, nullptr, 0};
@@ -50,7 +53,6 @@ hal::Fault WebService::Open() {
 
   const WebAddress& address = options_.address;
   const bool is_any = address.host == "0.0.0.0" || address.host == "::";
-  const auto connections = static_cast<unsigned>(options_.max_connections);
   lws_context_creation_info info{};
   info.port = address.port;
   info.iface = is_any ? nullptr : address.host.c_str();
@@ -69,7 +71,6 @@ hal::Fault WebService::Open() {
   info.timeout_secs_ah_idle = info.timeout_secs;
   info.keepalive_timeout = options_.request_timeout_s;
   info.retry_and_idle_policy = &retry_;
-  constexpr unsigned kOwnDescriptors = 8;
   info.fd_limit_per_thread = connections + kOwnDescriptors;
   context_ = lws_create_context(&info);
   if (context_ == nullptr) {
@@ -77,6 +78,11 @@ hal::Fault WebService::Open() {
                           address.Url(address.port).c_str());
   }
   port_ = lws_get_vhost_listen_port(lws_get_vhost_by_name(context_, "default"));
+  // libwebsockets does not say so itself.
+  if (port_ <= 0) {
+    return hal::MakeFault(Status::kIoError, "%s: cannot be listened on",
+                          address.Url(address.port).c_str());
+  }
   // Browsers keep cookies by host, not by port.
   cookie_name_ = "disflow_" + std::to_string(port_);
   return {};
