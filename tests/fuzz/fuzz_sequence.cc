@@ -17,8 +17,7 @@ using fuzz::Require;
 /// A folder in which every text is the fuzzer's file.
 const std::filesystem::path& Folder(const fuzz::FileInMemory& file) {
   static const fuzz::FolderWithFile folder(
-      file,
-      {"cam_K.json", "scene_camera.json", "scene_gt.json", "depth.txt", "groundtruth.txt"});
+      file, {"cam_K.json", "scene_camera.json", "scene_gt.json", "depth.txt", "groundtruth.txt"});
   return folder.path();
 }
 
