@@ -24,8 +24,9 @@ void Outputs::StartRecording(const Options& options, const hal::SensorInfo& sens
   recording_.emplace();
   const hal::Fault fault = recording_->Open(options.record, kObject, /*overwrite=*/false);
   if (fault.status == Status::kBusy) {
-    throw Failure(kOutputFailed,
-                  options.record + ": is not empty, and a recording is never overwritten; " + kOtherFolder);
+    throw Failure(
+        kOutputFailed,
+        options.record + ": is not empty, and a recording is never overwritten; " + kOtherFolder);
   }
   Require(fault);
 }

@@ -18,7 +18,7 @@ SEED = 11
 
 @dataclasses.dataclass(frozen=True)
 class Row:
-    """A sequence and who tracks it. Micro sees what its memory holds: images 213 pixels wide."""
+    """A sequence and who tracks it. Micro sees what its memory holds: images of 213 by 120 pixels."""
 
     thing: str
     noise: str
@@ -26,8 +26,8 @@ class Row:
     profile: str = "edge"
 
     @property
-    def width_px(self):
-        return 213 if self.profile == "micro" else 640
+    def size_px(self):
+        return (213, 120) if self.profile == "micro" else (640, 360)
 
     @property
     def name(self):
@@ -96,7 +96,7 @@ def count(programs, row, frames):
     shutil.rmtree(folder, ignore_errors=True)
     try:
         programs.call("disflow_sim", "--object", row.thing, "--motion", "fast", "--noise", row.noise, "--seed", SEED,
-                      "--frames", frames, "--width", row.width_px, folder)
+                      "--frames", frames, "--width", row.size_px[0], "--height", row.size_px[1], folder)
         dumps.mkdir()
         mask = "?mask=gt" if row.mask == "gt" else "?mask=none"
         done = subprocess.run(
@@ -105,6 +105,8 @@ def count(programs, row, frames):
             capture_output=True, text=True, check=False)
         if done.returncode != 0:
             raise RuntimeError(f"frame_cost ended with {done.returncode}: {done.stderr.strip()}")
+        if not any(line.split(",")[1] == "ok" for line in done.stdout.splitlines()[1:]):
+            raise RuntimeError(f"{row.name}: not one frame was tracked")
         files = sorted(dumps.glob("out.*"), key=lambda path: int(path.suffix[1:]))
         return summarise(read_counts(done.stdout.splitlines(), files))
     finally:

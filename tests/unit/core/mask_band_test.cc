@@ -74,8 +74,8 @@ TEST(MaskBand, Restrict_TakesAwayWhatLiesBeyondTheTolerance) {
   object->Finish();
   const PixelBox allowed = Grown(kGiven, 4);
   EXPECT_EQ(object->count(), allowed.width() * allowed.height());
-  EXPECT_TRUE(band.Allows(allowed.u_min, allowed.v_min));
-  EXPECT_FALSE(band.Allows(allowed.u_min - 1, allowed.v_min));
+  EXPECT_TRUE(band.AllowedIn(allowed.v_min).Test(allowed.u_min));
+  EXPECT_FALSE(band.AllowedIn(allowed.v_min).Test(allowed.u_min - 1));
 }
 
 /// A plate that faces the camera, in front of a wall, under a mask.
