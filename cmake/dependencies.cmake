@@ -7,7 +7,7 @@ set(disflow_missing_report "")
 # These are compiled, so a cross build needs those of its own architecture.
 set(disflow_compiled_packages
   libpng-dev libtinyobjloader-dev libtomlplusplus-dev libcamera-dev cyclonedds-dev libwebsockets-dev
-  liblz4-dev libzstd-dev libsqlite3-dev zlib1g-dev)
+  liblz4-dev libzstd-dev libsqlite3-dev zlib1g-dev libbz2-dev)
 
 # disflow_need(<found> <package> <what for> [<switch>]): notes a package as missing unless <found> is true.
 function(disflow_need found package purpose)
@@ -73,8 +73,10 @@ if(DISFLOW_WITH_ROSBAG)
   set(purpose "recordings of ROS (rosbag:)")
   find_package(SQLite3 QUIET)
   find_package(ZLIB QUIET)
+  find_package(BZip2 QUIET)
   disflow_need("${SQLite3_FOUND}" libsqlite3-dev ${purpose} DISFLOW_WITH_ROSBAG)
   disflow_need("${ZLIB_FOUND}" zlib1g-dev ${purpose} DISFLOW_WITH_ROSBAG)
+  disflow_need("${BZIP2_FOUND}" libbz2-dev ${purpose} DISFLOW_WITH_ROSBAG)
   if(PkgConfig_FOUND)
     pkg_check_modules(disflow_lz4 QUIET IMPORTED_TARGET liblz4)
     pkg_check_modules(disflow_zstd QUIET IMPORTED_TARGET libzstd)

@@ -14,6 +14,7 @@
 #include "disflow/surface_extractor.h"
 #include "program/exit_status.h"
 #include "settings/dds_address.h"
+#include "settings/rosbag_help.h"
 #include "settings/setting_sources.h"
 
 namespace disflow::apps {
@@ -41,14 +42,6 @@ constexpr const char* kLinksAndStatus =
     "\n"
     "Exit status: 0 done, 2 wrong usage or settings, 3 the sensor failed, a file of the sequence\n"
     "could not be read, no frame could be tracked or memory ran out, 4 an output or link failed.";
-
-constexpr const char* kRosbagHelp =
-    "  rosbag:PATH?depth=TOPIC\n"
-    "               depth images of a recording of ROS 2 (docs/ros2.md): a file .mcap or .db3, or "
-    "the folder of ros2 bag\n"
-    "               record. Options: info=TOPIC (CameraInfo; camera_info beside the images), "
-    "mask=TOPIC (mono8),\n"
-    "               rectified=yes|no (by the topic's name), first=N, count=N\n";
 
 const std::map<std::string, ProfileName> kProfiles = {
     {"micro", ProfileName::kMicro}, {"edge", ProfileName::kEdge}, {"dense", ProfileName::kDense}};

@@ -97,6 +97,7 @@ hal::Fault ListByStamps(const fs::path& path, const std::vector<NumberedFile>& f
     }
   }
   std::vector<NumberedFile> unlisted;
+  unlisted.reserve(missing_line.size());
   for (const auto& [number, file] : missing_line) unlisted.push_back(*file);
   if (unlisted.empty() && is_cut) LeaveOut(path.string() + " ends within a line", index);
   return LeaveOutUnlisted(path, unlisted, index);

@@ -19,9 +19,19 @@ constexpr std::size_t kMostShown = 48;
 
 /// Models that are a pinhole where all coefficients are 0; a fisheye's never is.
 bool IsPinholeModel(std::string_view model) noexcept {
-  constexpr std::array<std::string_view, 7> kModels = {
-      "",     "plumb_bob",     "rational_polynomial",   "thin_prism",
-      "none", "brown_conrady", "inverse_brown_conrady",
+  constexpr std::array<std::string_view, 11> kModels = {
+      "",
+      "plumb_bob",
+      "rational_polynomial",
+      "thin_prism",
+      "none",
+      "brown_conrady",
+      "inverse_brown_conrady",
+      // As librealsense writes them into its own recordings.
+      "None",
+      "Brown Conrady",
+      "Inverse Brown Conrady",
+      "Modified Brown Conrady",
   };
   return std::find(kModels.begin(), kModels.end(), model) != kModels.end();
 }

@@ -35,11 +35,26 @@ Fault SetOption(std::string_view key, std::string_view value, BagOptions& option
     return host::ParseChoice(key, value, std::span<const Choice<bool>>(kYesOrNo),
                              options.rectified.emplace());
   }
+  if (key == "scale") return host::ParseNumber(key, value, 1e-7, 1.0, options.unit_m.emplace());
   if (key == "first") return host::ParseNumber(key, value, 0, kMaxFrames, options.first);
   if (key == "count") return host::ParseNumber(key, value, 1, kMaxFrames, options.count);
   return MakeFault(Status::kInvalidUri,
-                   "rosbag has no option %s; known: depth, info, mask, rectified, first, count",
+                   "rosbag has no option %s; known: depth, info, mask, rectified, scale, first, "
+                   "count",
                    ShownText(key, 64).c_str());
+}
+
+/// What follows from the depth topic's name.
+void AddDefaults(BagOptions& options) {
+  // As librealsense records: /device_0/sensor_0/Depth_0/image/data. Its depth images are rectified.
+  constexpr std::string_view kRealSense = "/image/data";
+  const std::string& depth = options.depth_topic;
+  const bool is_realsense = depth.starts_with("/device_") && depth.ends_with(kRealSense);
+  if (options.info_topic.empty() && is_realsense) {
+    options.info_topic = depth.substr(0, depth.size() - kRealSense.size()) + "/info/camera_info";
+  }
+  if (options.info_topic.empty()) options.info_topic = CameraInfoTopic(depth);
+  if (!options.rectified) options.rectified = !is_realsense && IsRectifiedTopic(depth);
 }
 
 }  // namespace
@@ -56,8 +71,7 @@ Fault ParseBagUri(const host::Uri& uri, BagOptions& options) {
                      "depth= is missing; write rosbag:FILE?depth=TOPIC, e.g. "
                      "depth=/camera/depth/image_rect_raw (ros2 bag info lists the topics)");
   }
-  if (parsed.info_topic.empty()) parsed.info_topic = CameraInfoTopic(parsed.depth_topic);
-  if (!parsed.rectified) parsed.rectified = IsRectifiedTopic(parsed.depth_topic);
+  AddDefaults(parsed);
   options = parsed;
   return {};
 }

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "mcap_reader.h"
+#include "ros1_reader.h"
 #include "sqlite_reader.h"
 
 namespace disflow::posix {
@@ -43,12 +44,13 @@ Fault OpenBagFile(const std::filesystem::path& file, const std::string& topic,
     return MakeFault(Status::kUnsupported, "%s: is packed as a whole; unpack it: zstd -d %s",
                      file.c_str(), file.filename().c_str());
   }
+  if (text.starts_with("#ROSBAG V2.0\n")) return OpenAs<Ros1Reader>(file, topic, reader);
   if (text.starts_with("#ROSBAG V")) {
-    return MakeFault(Status::kUnsupported,
-                     "%s: is a recording of ROS 1; convert it, e.g. by rosbags-convert",
+    return MakeFault(Status::kUnsupported, "%s: is a bag older than ROS's format 2.0; rosbag fix",
                      file.c_str());
   }
-  return MakeFault(Status::kCorrupt, "%s: is neither MCAP nor SQLite, as ROS 2 records them",
+  return MakeFault(Status::kCorrupt,
+                   "%s: is neither MCAP nor SQLite, as ROS 2 records them, nor a bag of ROS 1",
                    file.c_str());
 }
 

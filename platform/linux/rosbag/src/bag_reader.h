@@ -34,7 +34,7 @@ class BagReader {
   BagReader() = default;
 };
 
-/// Opens a file by what is in it: MCAP, or SQLite as ROS 2 writes it.
+/// Opens a file by what is in it: MCAP, SQLite as ROS 2 writes it, or a bag of ROS 1.
 [[nodiscard]] hal::Fault OpenBagFile(const std::filesystem::path& file, const std::string& topic,
                                      std::unique_ptr<BagReader>& reader);
 

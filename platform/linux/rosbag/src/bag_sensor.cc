@@ -61,6 +61,7 @@ struct BagSensor::State {
   [[nodiscard]] Fault FindSize();
   [[nodiscard]] Fault Next(DepthFrame& frame);
   [[nodiscard]] Fault Decode(const BagMessage& message, DepthFrame& frame);
+  [[nodiscard]] Fault ApplyUnit(DepthView& view) const;
   [[nodiscard]] Fault Accompany(DepthFrame& frame);
   [[nodiscard]] Fault ReadInfo(const BagMessage& message, StampNs& stamp_ns,
                                RosIntrinsics& intrinsics) const;
@@ -68,6 +69,7 @@ struct BagSensor::State {
 
   const BagOptions& options;
   std::vector<std::filesystem::path> files;
+  std::string note;
   TopicStream depth;
   FollowedTopic<RosIntrinsics> infos;
   FollowedTopic<Mask> masks;
@@ -145,6 +147,7 @@ Fault BagSensor::State::Next(DepthFrame& frame) {
   }
   frame = DepthFrame{};
   Fault fault = Decode(message, frame);
+  if (fault.ok()) fault = ApplyUnit(frame.depth);
   if (fault.ok()) fault = Accompany(frame);
   if (fault.ok()) return fault;
   // At the start an unknown type is the wrong topic; of all else this message is lost.
@@ -161,6 +164,15 @@ Fault BagSensor::State::Decode(const BagMessage& message, DepthFrame& frame) {
     if (!fault.ok()) return fault;
     image.assign(raw.data.begin(), raw.data.end());
     raw.data = image;
+    // librealsense calls its depth so; what a step of it means stands elsewhere.
+    if (raw.encoding == "mono16") {
+      if (!options.unit_m) {
+        return MakeFault(Status::kUnsupported,
+                         "encoding 'mono16' has no unit; if it is depth, say scale=0.001 (metres "
+                         "per step)");
+      }
+      raw.encoding = "16UC1";
+    }
     return decoder.Decode(raw, frame.depth);
   }
   if (IsSensorMessage(message, "CompressedImage")) {
@@ -172,6 +184,14 @@ Fault BagSensor::State::Decode(const BagMessage& message, DepthFrame& frame) {
   return MakeFault(Status::kUnsupported,
                    "is of type %s; sensor_msgs/msg/Image or CompressedImage is needed",
                    ShownText(message.type, 64).c_str());
+}
+
+Fault BagSensor::State::ApplyUnit(DepthView& view) const {
+  if (!options.unit_m) return {};
+  if (view.format != DepthFormat::kUint16)
+    return MakeFault(Status::kUnsupported, "scale is for 16-bit images; these are in metres");
+  view.unit_m = static_cast<float>(*options.unit_m);
+  return {};
 }
 
 /// Adds intrinsics and mask.
@@ -205,12 +225,13 @@ BagSensor::BagSensor(BagOptions options)
 
 BagSensor::~BagSensor() = default;
 
-const std::string& BagSensor::note() const { return state_->depth.note(); }
+const std::string& BagSensor::note() const { return state_->note; }
 
 Fault BagSensor::DoOpen() noexcept try {
   State& state = *state_;
   if (state.open) return {};
   Fault fault = ListBagFiles(options_.path, state.files);
+  if (fault.ok()) fault = NoteWhatIsCut(state.files, state.note);
   if (fault.ok()) fault = state.FindSize();
   state.open = fault.ok();
   name_ = options_.depth_topic + " of " + options_.path.string();

@@ -89,7 +89,9 @@ Fault ReadIntrinsics(const BagMessage& message, bool rectified, StampNs& stamp_n
   info.roi_height_px = reader.Take<std::uint32_t>();
   info.roi_width_px = reader.Take<std::uint32_t>();
   (void)reader.Take<std::uint8_t>();  // whether somebody should rectify
-  Fault fault = Judge(reader, message, stamp);
+  // Intrinsics without a time hold from the start.
+  if (!stamp.ok()) stamp_ns = 0;
+  Fault fault = Judge(reader, message, {});
   if (fault.ok()) fault = ReadCameraInfo(info, rectified, intrinsics);
   return fault;
 }

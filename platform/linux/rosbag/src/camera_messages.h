@@ -34,6 +34,7 @@ struct CompressedImage {
                                              CompressedImage& image);
 
 /// Reads a sensor_msgs/CameraInfo and what it means; see ReadCameraInfo().
+/// @param stamp_ns 0 if it has none: recordings of RealSense cameras hold one for all images.
 [[nodiscard]] hal::Fault ReadIntrinsics(const BagMessage& message, bool rectified,
                                         StampNs& stamp_ns, RosIntrinsics& intrinsics);
 

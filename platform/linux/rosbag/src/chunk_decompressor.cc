@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "chunk_decompressor.h"
 
+#include <bzlib.h>
 #include <lz4frame.h>
 #include <zstd.h>
 
@@ -45,14 +46,25 @@ Fault DecompressZstd(std::span<const std::uint8_t> packed, std::span<std::uint8_
   return ZSTD_isError(size) == 0 && size == unpacked.size() ? Fault{} : Damaged("zstd");
 }
 
+Fault DecompressBzip2(std::span<const std::uint8_t> packed, std::span<std::uint8_t> unpacked) {
+  auto size = static_cast<unsigned>(unpacked.size());
+  // Its interface is older than const; it writes to the other side alone.
+  auto* const from = reinterpret_cast<char*>(const_cast<std::uint8_t*>(packed.data()));
+  const int result = BZ2_bzBuffToBuffDecompress(reinterpret_cast<char*>(unpacked.data()), &size,
+                                                from, static_cast<unsigned>(packed.size()),
+                                                /*small=*/0, /*verbosity=*/0);
+  return result == BZ_OK && size == unpacked.size() ? Fault{} : Damaged("bz2");
+}
+
 }  // namespace
 
 Fault Decompress(std::string_view compression, std::span<const std::uint8_t> packed,
                  std::vector<std::uint8_t>& unpacked) {
   if (compression == "lz4") return DecompressLz4(packed, unpacked);
+  if (compression == "bz2") return DecompressBzip2(packed, unpacked);
   if (compression == "zstd") return DecompressZstd(packed, unpacked);
   if (!compression.empty()) {
-    return MakeFault(Status::kUnsupported, "is packed with '%s'; lz4 and zstd can be read",
+    return MakeFault(Status::kUnsupported, "is packed with '%s'; lz4, zstd and bz2 can be read",
                      ShownText(compression, 20).c_str());
   }
   if (packed.size() != unpacked.size()) return Damaged("unpacked");

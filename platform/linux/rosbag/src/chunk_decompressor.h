@@ -10,7 +10,8 @@
 
 namespace disflow::posix {
 
-/// Unpacks what MCAP and rosbag2 pack: `lz4` (its frame format), `zstd`, or nothing.
+/// Unpacks what MCAP and bags pack: `lz4` (its frame format), `zstd`, `bz2`,
+/// or nothing.
 /// @param unpacked Is made as long as it has to become; the caller has bounded that.
 /// @return kUnsupported for another packing; kCorrupt if it is damaged or of another length.
 [[nodiscard]] hal::Fault Decompress(std::string_view compression,

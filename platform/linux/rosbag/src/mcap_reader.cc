@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mcap_reader.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
 #include <zlib.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 
 #include "chunk_decompressor.h"
 #include "mcap_format.h"
@@ -31,26 +26,21 @@ std::uint32_t Crc32(std::uint32_t crc, std::span<const std::uint8_t> bytes) noex
 }  // namespace
 
 Fault McapReader::Open(const std::filesystem::path& file, const std::string& topic) {
-  file_ = file;
   topic_ = topic;
-  descriptor_ = FileDescriptor(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
-  struct stat status {};
-  if (!descriptor_.is_open() || ::fstat(descriptor_.get(), &status) != 0)
-    return MakeFault(Status::kIoError, "%s: %s", file.c_str(), std::strerror(errno));
-  size_ = static_cast<std::uint64_t>(std::max<off_t>(status.st_size, 0));
-  return CheckEnds();
+  const Fault fault = file_.Open(file);
+  return fault.ok() ? CheckEnds() : fault;
 }
 
 /// A file that was closed ends with a footer and the bytes with which it begins.
 Fault McapReader::CheckEnds() {
   std::array<std::uint8_t, mcap::kMagic.size()> magic{};
-  if (size_ < magic.size()) return Corrupt(0, "is too short for an MCAP file");
-  Fault fault = Read(0, magic);
+  if (file_.size() < magic.size()) return file_.Corrupt(0, "is too short for an MCAP file");
+  Fault fault = file_.Read(0, magic);
   if (!fault.ok()) return fault;
-  if (magic != mcap::kMagic) return Corrupt(0, "is no MCAP file");
+  if (magic != mcap::kMagic) return file_.Corrupt(0, "is no MCAP file");
   at_ = magic.size();
-  if (size_ < 2 * magic.size()) return {};
-  fault = Read(size_ - magic.size(), magic);
+  if (file_.size() < 2 * magic.size()) return {};
+  fault = file_.Read(file_.size() - magic.size(), magic);
   closed_ = magic == mcap::kMagic;
   return fault.ok() && closed_ ? FindChecksum() : fault;
 }
@@ -60,49 +50,26 @@ Fault McapReader::FindChecksum() {
   constexpr std::uint64_t kEnd = mcap::kMagic.size() + mcap::kFooterBytes + mcap::kRecordHeadBytes;
   constexpr std::uint64_t kDataEnd = mcap::kRecordHeadBytes + mcap::kDataEndBytes;
   std::array<std::uint8_t, mcap::kRecordHeadBytes + mcap::kFooterBytes> footer{};
-  if (size_ < at_ + kEnd) return {};
-  Fault fault = Read(size_ - kEnd, footer);
+  if (file_.size() < at_ + kEnd) return {};
+  Fault fault = file_.Read(file_.size() - kEnd, footer);
   if (!fault.ok() || footer[0] != mcap::kFooter) return fault;
   ByteCursor cursor(std::span<std::uint8_t>(footer).subspan(mcap::kRecordHeadBytes));
   const auto summary = cursor.Take<std::uint64_t>();
-  const std::uint64_t end = summary == 0 ? size_ - kEnd : summary;
-  if (end < at_ + kDataEnd || end > size_) return {};
+  const std::uint64_t end = summary == 0 ? file_.size() - kEnd : summary;
+  if (end < at_ + kDataEnd || end > file_.size()) return {};
   std::array<std::uint8_t, kDataEnd> data_end{};
-  fault = Read(end - kDataEnd, data_end);
+  fault = file_.Read(end - kDataEnd, data_end);
   ByteCursor checksum(std::span<std::uint8_t>(data_end).subspan(mcap::kRecordHeadBytes));
   has_checksum_ =
       fault.ok() && data_end[0] == mcap::kDataEnd && checksum.Take<std::uint32_t>() != 0;
   return fault;
 }
 
-Fault McapReader::Corrupt(std::uint64_t begin, const char* problem) const {
-  return MakeFault(Status::kCorrupt, "%s: byte %ju: %s", file_.c_str(), std::uintmax_t{begin},
-                   problem);
-}
-
-std::string McapReader::note() const {
-  if (closed_) return {};
-  return file_.string() + ": the recording was cut short; it is played as far as it is whole";
-}
-
-Fault McapReader::Read(std::uint64_t begin, std::span<std::uint8_t> bytes) {
-  while (!bytes.empty()) {
-    const ssize_t count = RetryOnSignal([&] {
-      return ::pread(descriptor_.get(), bytes.data(), bytes.size(), static_cast<off_t>(begin));
-    });
-    if (count <= 0) {
-      return MakeFault(Status::kIoError, "%s: byte %ju: %s", file_.c_str(), std::uintmax_t{begin},
-                       count < 0 ? std::strerror(errno) : "the file has become shorter");
-    }
-    bytes = bytes.subspan(static_cast<std::size_t>(count));
-    begin += static_cast<std::uint64_t>(count);
-  }
-  return {};
-}
+std::string McapReader::note() const { return closed_ ? "" : file_.CutShort(); }
 
 Fault McapReader::ReadHead(std::uint64_t begin, Record& record) {
   std::array<std::uint8_t, mcap::kRecordHeadBytes> head{};
-  const Fault fault = Read(begin, head);
+  const Fault fault = file_.Read(begin, head);
   ByteCursor cursor(head);
   record.opcode = cursor.Take<std::uint8_t>();
   record.length = cursor.Take<std::uint64_t>();
@@ -111,9 +78,9 @@ Fault McapReader::ReadHead(std::uint64_t begin, Record& record) {
 }
 
 Fault McapReader::ReadContent(const Record& record, std::uint64_t most) {
-  if (record.length > most) return Corrupt(record.begin, "a record is too long");
+  if (record.length > most) return file_.Corrupt(record.begin, "a record is too long");
   content_.resize(static_cast<std::size_t>(record.length));
-  return Read(record.begin, content_);
+  return file_.Read(record.begin, content_);
 }
 
 /// Goes on with the checksum of all bytes until `end`.
@@ -121,7 +88,7 @@ Fault McapReader::AddToChecksum(std::uint64_t end) {
   std::array<std::uint8_t, 65536> block;
   while (has_checksum_ && checked_ < end) {
     const auto part = std::span(block).first(std::min<std::uint64_t>(block.size(), end - checked_));
-    const Fault fault = Read(checked_, part);
+    const Fault fault = file_.Read(checked_, part);
     if (!fault.ok()) return fault;
     checksum_ = Crc32(checksum_, part);
     checked_ += part.size();
@@ -138,16 +105,16 @@ Fault McapReader::Next(BagMessage& message) {
 }
 
 Fault McapReader::TakeFromFile(BagMessage& message, bool& found) {
-  const Fault over = MakeFault(Status::kEndOfStream, "%s: is over", file_.c_str());
-  if (size_ - at_ < mcap::kRecordHeadBytes) return over;
+  const Fault over = file_.IsOver();
+  if (file_.size() - at_ < mcap::kRecordHeadBytes) return over;
   Record record;
   Fault fault = ReadHead(at_, record);
   if (!fault.ok()) return Stop(), fault;
   const std::uint64_t begin = at_;
-  if (record.length > size_ - record.begin) {
+  if (record.length > file_.size() - record.begin) {
     Stop();
     // What a killed recorder leaves is said by note().
-    return closed_ ? Corrupt(begin, "a record is longer than the file") : over;
+    return closed_ ? file_.Corrupt(begin, "a record is longer than the file") : over;
   }
   if (fault = AddToChecksum(begin); !fault.ok()) return Stop(), fault;
   at_ = record.begin + record.length;
@@ -168,7 +135,7 @@ Fault McapReader::TakeFromFile(BagMessage& message, bool& found) {
       return over;
     case 0:
       Stop();
-      return Corrupt(begin, "is no record; what follows cannot be read");
+      return file_.Corrupt(begin, "is no record; what follows cannot be read");
     default:
       return {};
   }
@@ -182,11 +149,11 @@ Fault McapReader::TakeDataEnd(const Record& record) {
   if (!fault.ok() || !has_checksum_) return fault;
   ByteCursor cursor(content_);
   if (cursor.Take<std::uint32_t>() == checksum_) return {};
-  return Corrupt(record.begin, "the checksum says that something before is damaged");
+  return file_.Corrupt(record.begin, "the checksum says that something before is damaged");
 }
 
 Fault McapReader::OpenChunk(const Record& record) {
-  if (record.length > kMostMessageBytes) return Corrupt(record.begin, "a chunk is too long");
+  if (record.length > kMostMessageBytes) return file_.Corrupt(record.begin, "a chunk is too long");
   Fault fault = ReadContent(record, kMostMessageBytes);
   if (!fault.ok()) return fault;
   ByteCursor cursor(content_);
@@ -196,13 +163,13 @@ Fault McapReader::OpenChunk(const Record& record) {
   const auto checksum = cursor.Take<std::uint32_t>();
   const std::string_view compression = cursor.TakeText();
   const auto packed = cursor.TakeBytes(cursor.Take<std::uint64_t>());
-  if (!cursor.ok()) return Corrupt(record.begin, "a chunk is not whole");
-  if (size > kMostMessageBytes) return Corrupt(record.begin, "a chunk is too long");
+  if (!cursor.ok()) return file_.Corrupt(record.begin, "a chunk is not whole");
+  if (size > kMostMessageBytes) return file_.Corrupt(record.begin, "a chunk is too long");
   chunk_.resize(static_cast<std::size_t>(size));
   fault = Decompress(compression, packed, chunk_);
-  if (!fault.ok()) return Corrupt(record.begin, fault.message);
+  if (!fault.ok()) return file_.Corrupt(record.begin, fault.message);
   if (checksum != 0 && checksum != Crc32(0, chunk_))
-    return Corrupt(record.begin, "the checksum of a chunk is wrong, so it is left out");
+    return file_.Corrupt(record.begin, "the checksum of a chunk is wrong, so it is left out");
   chunk_rest_ = chunk_;
   chunk_begin_ = record.begin;
   return {};
@@ -213,7 +180,7 @@ Fault McapReader::TakeFromChunk(BagMessage& message, bool& found) {
   const auto opcode = cursor.Take<std::uint8_t>();
   const auto content = cursor.TakeBytes(cursor.Take<std::uint64_t>());
   chunk_rest_ = cursor.ok() ? cursor.rest() : std::span<std::uint8_t>();
-  if (!cursor.ok()) return Corrupt(chunk_begin_, "a record is longer than its chunk");
+  if (!cursor.ok()) return file_.Corrupt(chunk_begin_, "a record is longer than its chunk");
   return TakeRecord(opcode, content, message, found);
 }
 
@@ -226,19 +193,19 @@ Fault McapReader::TakeRecord(std::uint8_t opcode, std::span<std::uint8_t> conten
   const auto channel = channels_.find(cursor.Take<std::uint16_t>());
   if (channel == channels_.end()) return {};
   (void)cursor.TakeBytes(mcap::kMessageHeadBytes - sizeof(std::uint16_t));
-  if (!cursor.ok()) return Corrupt(chunk_begin_, "a message is too short");
+  if (!cursor.ok()) return file_.Corrupt(chunk_begin_, "a message is too short");
   message.serialization = channel->second.serialization;
   message.type = channel->second.type;
   message.data = cursor.rest();
   const Fault fault = DecompressMessage(message_, message.data);
   found = fault.ok();
-  return found ? fault : Corrupt(at_, fault.message);
+  return found ? fault : file_.Corrupt(at_, fault.message);
 }
 
 Fault McapReader::TakeSchema(ByteCursor cursor) {
   const auto id = cursor.Take<std::uint16_t>();
   const std::string_view name = cursor.TakeText();
-  if (!cursor.ok()) return Corrupt(at_, "a schema is not whole");
+  if (!cursor.ok()) return file_.Corrupt(at_, "a schema is not whole");
   if (name.size() > kLongestName || schemas_.size() >= kMostChannels) return {};
   schemas_.emplace(id, name);
   return {};
@@ -249,12 +216,12 @@ Fault McapReader::TakeChannel(ByteCursor cursor) {
   const auto schema = cursor.Take<std::uint16_t>();
   const std::string_view topic = cursor.TakeText();
   const std::string_view encoding = cursor.TakeText();
-  if (!cursor.ok()) return Corrupt(at_, "a channel is not whole");
+  if (!cursor.ok()) return file_.Corrupt(at_, "a channel is not whole");
   names_.Add(topic);
   if (topic != topic_ || channels_.size() >= kMostChannels) return {};
   if (encoding != "cdr" && encoding != "ros1") {
     return MakeFault(Status::kUnsupported, "%s: %s is encoded as '%s'; cdr (ROS 2) can be read",
-                     file_.c_str(), topic_.c_str(), ShownText(encoding, 20).c_str());
+                     file_.path().c_str(), topic_.c_str(), ShownText(encoding, 20).c_str());
   }
   const auto type = schemas_.find(schema);
   channels_[id] = {type == schemas_.end() ? "" : type->second,

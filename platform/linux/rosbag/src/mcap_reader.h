@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "bag_file.h"
 #include "bag_reader.h"
 #include "byte_cursor.h"
-#include "disflow/posix/file_descriptor.h"
 #include "topic_names.h"
 
 namespace disflow::posix {
@@ -38,7 +38,6 @@ class McapReader final : public BagReader {
 
   [[nodiscard]] hal::Fault CheckEnds();
   [[nodiscard]] hal::Fault FindChecksum();
-  [[nodiscard]] hal::Fault Read(std::uint64_t begin, std::span<std::uint8_t> bytes);
   [[nodiscard]] hal::Fault ReadHead(std::uint64_t begin, Record& record);
   [[nodiscard]] hal::Fault ReadContent(const Record& record, std::uint64_t most);
   [[nodiscard]] hal::Fault AddToChecksum(std::uint64_t end);
@@ -50,13 +49,10 @@ class McapReader final : public BagReader {
   [[nodiscard]] hal::Fault TakeChannel(ByteCursor cursor);
   [[nodiscard]] hal::Fault OpenChunk(const Record& record);
   [[nodiscard]] hal::Fault TakeDataEnd(const Record& record);
-  [[nodiscard]] hal::Fault Corrupt(std::uint64_t begin, const char* problem) const;
-  void Stop() noexcept { at_ = size_; }
+  void Stop() noexcept { at_ = file_.size(); }
 
-  std::filesystem::path file_;
+  BagFile file_;
   std::string topic_;
-  FileDescriptor descriptor_;
-  std::uint64_t size_ = 0;
   std::uint64_t at_ = 0;       ///< Where the next record begins.
   bool closed_ = false;        ///< Its recorder came to its end.
   bool has_checksum_ = false;  ///< Of the data section.

@@ -32,21 +32,26 @@ Fault ListBagFiles(const fs::path& path, std::vector<fs::path>& files) {
                    path.c_str());
 }
 
+Fault NoteWhatIsCut(const std::vector<fs::path>& files, std::string& note) {
+  note.clear();
+  for (const fs::path& file : files) {
+    std::unique_ptr<BagReader> reader;
+    const Fault fault = OpenBagFile(file, "", reader);
+    if (!fault.ok()) return fault;
+    if (!reader->note().empty()) note.append(note.empty() ? "" : "; ").append(reader->note());
+  }
+  return {};
+}
+
 Fault TopicStream::Open(const std::vector<fs::path>& files, const std::string& topic) {
   files_ = files;
   topic_ = topic;
   next_ = 0;
-  note_.clear();
   reader_.reset();
   return OpenNext();
 }
 
-Fault TopicStream::OpenNext() {
-  const Fault fault = OpenBagFile(files_[next_++], topic_, reader_);
-  if (fault.ok() && !reader_->note().empty())
-    note_.append(note_.empty() ? "" : "; ").append(reader_->note());
-  return fault;
-}
+Fault TopicStream::OpenNext() { return OpenBagFile(files_[next_++], topic_, reader_); }
 
 Fault TopicStream::Next(BagMessage& message) {
   for (;;) {

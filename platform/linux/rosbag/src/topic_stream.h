@@ -14,6 +14,10 @@ namespace disflow::posix {
 [[nodiscard]] hal::Fault ListBagFiles(const std::filesystem::path& path,
                                       std::vector<std::filesystem::path>& files);
 
+/// What is not whole of the files although it can be played, for people; empty if all is.
+[[nodiscard]] hal::Fault NoteWhatIsCut(const std::vector<std::filesystem::path>& files,
+                                       std::string& note);
+
 /// The messages of one topic through all files of a recording.
 class TopicStream {
  public:
@@ -24,8 +28,6 @@ class TopicStream {
   [[nodiscard]] hal::Fault Next(BagMessage& message);
 
   [[nodiscard]] const std::string& topic() const noexcept { return topic_; }
-  /// Of the files until now.
-  [[nodiscard]] const std::string& note() const noexcept { return note_; }
   /// That the topic is not there, and which are.
   [[nodiscard]] hal::Fault Missing() const;
 
@@ -36,7 +38,6 @@ class TopicStream {
   std::string topic_;
   std::size_t next_ = 0;
   std::unique_ptr<BagReader> reader_;
-  std::string note_;
 };
 
 }  // namespace disflow::posix

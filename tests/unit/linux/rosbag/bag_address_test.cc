@@ -14,15 +14,17 @@ hal::Fault Parse(const std::string& text, BagOptions& options) {
 
 TEST(BagAddress, EveryKey_ReachesItsField) {
   BagOptions options;
-  const hal::Fault fault =
-      Parse("rosbag:/data/run 1?depth=/d/image&info=/d/info&mask=/m&rectified=yes&first=3&count=20",
-            options);
+  const hal::Fault fault = Parse(
+      "rosbag:/data/run "
+      "1?depth=/d/image&info=/d/info&mask=/m&rectified=yes&scale=0.0001&first=3&count=20",
+      options);
   ASSERT_TRUE(fault.ok()) << fault.message;
   EXPECT_EQ(options.path, "/data/run 1");
   EXPECT_EQ(options.depth_topic, "/d/image");
   EXPECT_EQ(options.info_topic, "/d/info");
   EXPECT_EQ(options.mask_topic, "/m");
   EXPECT_EQ(options.rectified, true);
+  EXPECT_EQ(options.unit_m, 0.0001);
   EXPECT_EQ(options.first, 3);
   EXPECT_EQ(options.count, 20);
 }
@@ -34,6 +36,9 @@ TEST(BagAddress, WhatIsNotSaid_FollowsFromTheDepthTopic) {
   EXPECT_EQ(options.info_topic, "/camera/depth/camera_info");
   EXPECT_EQ(options.rectified, true);
   ASSERT_TRUE(Parse("rosbag:run.mcap?depth=/camera/depth/image_raw", options).ok());
+  EXPECT_EQ(options.rectified, false);
+  ASSERT_TRUE(Parse("rosbag:d.bag?depth=/device_0/sensor_0/Depth_0/image/data", options).ok());
+  EXPECT_EQ(options.info_topic, "/device_0/sensor_0/Depth_0/info/camera_info");
   EXPECT_EQ(options.rectified, false);
 }
 

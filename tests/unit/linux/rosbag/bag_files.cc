@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bag_files.h"
 
+#include <bzlib.h>
 #include <gtest/gtest.h>
 #include <lz4frame.h>
 #include <zlib.h>
@@ -41,6 +42,23 @@ Bytes Lz4(std::string_view bytes) {
   packed.resize(
       LZ4F_compressFrame(packed.data(), packed.size(), bytes.data(), bytes.size(), nullptr));
   return packed;
+}
+
+Bytes Bzip2(std::string_view bytes) {
+  Bytes packed(bytes.size() + bytes.size() / 100 + 601, '\0');  // as its manual says
+  auto size = static_cast<unsigned>(packed.size());
+  Bytes source(bytes);
+  EXPECT_EQ(BZ2_bzBuffToBuffCompress(packed.data(), &size, source.data(),
+                                     static_cast<unsigned>(source.size()), 9, 0, 0),
+            BZ_OK);
+  packed.resize(size);
+  return packed;
+}
+
+/// Of a bag's chunk.
+Bytes Packed(std::string_view bytes, const std::string& compression) {
+  if (compression == "lz4") return Lz4(bytes);
+  return compression == "bz2" ? Bzip2(bytes) : Bytes(bytes);
 }
 
 Bytes Chunk(std::string_view records, const McapStyle& style) {
@@ -139,6 +157,46 @@ Bytes McapFile(const std::vector<RecordedMessage>& messages, const McapStyle& st
   file += Record(0x0F, Little(style.checksums ? Crc(file) : 0U));
   const Bytes footer = Little(std::uint64_t{0}) + Little(std::uint64_t{0}) + Little(0U);
   return file + Record(0x02, footer) + Bytes(kMagic);
+}
+
+Bytes Ros1Bag(const std::vector<RecordedMessage>& messages, const std::string& compression,
+              bool closed) {
+  const auto field = [](std::string_view name, std::string_view value) {
+    return Text(Bytes(name).append("=").append(value));
+  };
+  const auto record = [](std::string_view header, std::string_view data) {
+    return Text(header) + Text(data);
+  };
+  const auto op = [&field](char code) { return field("op", Bytes(1, code)); };
+  const Bytes head = op(3) + field("index_pos", Little(std::uint64_t{closed ? 4117U : 0U})) +
+                     field("conn_count", Little(std::uint32_t{3})) +
+                     field("chunk_count", Little(std::uint32_t{1}));
+  constexpr std::size_t kHeadBytes = 4096;
+  Bytes file = "#ROSBAG V2.0\n" + record(head, Bytes(kHeadBytes - head.size(), ' '));
+  std::map<std::string, std::uint32_t> connections;
+  Bytes records;
+  const auto flush = [&] {
+    if (records.empty()) return;
+    const Bytes size = Little(static_cast<std::uint32_t>(records.size()));
+    file += record(op(5) + field("compression", compression) + field("size", size),
+                   Packed(records, compression));
+    records.clear();
+  };
+  for (const RecordedMessage& message : messages) {
+    const auto next = static_cast<std::uint32_t>(connections.size());
+    const auto [connection, is_new] = connections.emplace(message.topic, next);
+    const Bytes id = field("conn", Little(connection->second));
+    if (is_new) {
+      records += record(op(7) + id + field("topic", message.topic),
+                        field("topic", message.topic) + field("type", message.type) +
+                            field("md5sum", "*") + field("message_definition", "# text\n"));
+    }
+    records += record(op(2) + id + field("time", Little(std::uint64_t{1})), message.data);
+    constexpr std::size_t kChunkBytes = 2000;
+    if (records.size() > kChunkBytes) flush();
+  }
+  flush();
+  return file;
 }
 
 Bytes Zstd(std::string_view bytes) {

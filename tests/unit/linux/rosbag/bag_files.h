@@ -71,6 +71,12 @@ struct McapStyle {
 };
 [[nodiscard]] Bytes McapFile(const std::vector<RecordedMessage>& messages, const McapStyle& style);
 
+/// A bag of ROS 1, format 2.0, without its index.
+/// @param compression Of chunks: none, lz4, bz2.
+/// @param closed As if the recorder was not killed.
+[[nodiscard]] Bytes Ros1Bag(const std::vector<RecordedMessage>& messages,
+                            const std::string& compression, bool closed = true);
+
 /// Compresses by itself, as rosbag2's message mode does.
 [[nodiscard]] Bytes Zstd(std::string_view bytes);
 
