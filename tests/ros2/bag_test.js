@@ -8,27 +8,20 @@ import { join } from "node:path";
 import { before, test } from "node:test";
 import zstd from "@foxglove/wasm-zstd";
 import { McapWriter } from "@mcap/core";
-import { cameraInfo, millimetres, png, quantised, readFrames, rows, stampLines, writeRecording } from "./frames.js";
+import { metres, packed, packedMillimetres, raw } from "./encodings.js";
+import { cameraInfo, millimetres, png, quantised, readFrames, stampLines, writeRecording } from "./frames.js";
 import { writerOf } from "./messages.js";
 import { headerOf } from "./player.js";
-import { file, run } from "./program.js";
+import { file, finished } from "./program.js";
 import { trajectory } from "./trajectory.js";
 
 const kFrames = 30;
 const stamps = Array.from({ length: kFrames }, (_, i) => 1789012345678901234n + BigInt(i) * 33333333n);
 const common = ["--headless", "--no-timing"];
-const image = writerOf("sensor_msgs/Image");
-const compressed = writerOf("sensor_msgs/CompressedImage");
 const info = writerOf("sensor_msgs/CameraInfo");
 
 let camera;
 let frames;
-
-async function finished(...options) {
-  const { status, said } = await run(...options).ended;
-  assert.equal(status, 0, said);
-  return said;
-}
 
 before(async () => {
   await zstd.isLoaded;
@@ -37,24 +30,6 @@ before(async () => {
   camera = JSON.parse(readFileSync(join(file("simulated"), "cam_K.json")));
   frames = readFrames(file("simulated"), kFrames);
 });
-
-const raw = (encoding, values) => ({
-  type: "sensor_msgs/msg/Image",
-  encode: (frame, stamp) => {
-    const data = values(frame);
-    const step = frame.width * data.BYTES_PER_ELEMENT;
-    return image.writeMessage({
-      header: headerOf(stamp), height: frame.height, width: frame.width, encoding, is_bigendian: 0, step,
-      data: rows(frame, data, step, false),
-    });
-  },
-});
-const packed = (format, data) => ({
-  type: "sensor_msgs/msg/CompressedImage",
-  encode: (frame, stamp) => compressed.writeMessage({ header: headerOf(stamp), format, data: data(frame) }),
-});
-const packedMillimetres = (frame) =>
-  new Uint8Array(Buffer.concat([Buffer.alloc(12), png(frame.width, frame.height, millimetres(frame))]));
 
 const floats = (images) => (folder) => writeRecording(folder, camera, stamps, images());
 function pictures(folder) {
@@ -71,7 +46,7 @@ function messagesOf({ topic, type, encode }) {
   return frames.flatMap((frame, i) => {
     const infoTopic = topic.replace(/image.*/, "camera_info");
     const both = [
-      { topic, type, data: encode(frame, stamps[i]) },
+      { topic, type: type.replace("/", "/msg/"), data: encode(frame, stamps[i]) },
       { topic: infoTopic, type: "sensor_msgs/msg/CameraInfo", data: info.writeMessage(cameraInfo(headerOf(stamps[i]), camera)) },
     ];
     return i % 2 === 0 ? both : both.reverse();
@@ -131,7 +106,7 @@ database.commit()`;
 
 const compressChunk = (data) => ({ compression: "zstd", compressedData: zstd.compress(Buffer.from(data), 1) });
 const kinds = [
-  { name: "metres", topic: "/c/depth/image_raw", ...raw("32FC1", ({ metres }) => metres), record: floats(() => frames) },
+  { name: "metres", topic: "/c/depth/image_raw", ...raw("32FC1", metres), record: floats(() => frames) },
   { name: "millimetres", topic: "/c/depth/image_rect_raw", ...raw("16UC1", millimetres), record: pictures },
   { name: "pngs", topic: "/c/depth/image_rect_raw/compressedDepth", ...packed("16UC1; compressedDepth png", packedMillimetres),
     record: pictures },

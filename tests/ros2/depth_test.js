@@ -5,28 +5,20 @@ import assert from "node:assert/strict";
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
-import { millimetres, png, quantised, readFrames, rows, stampLines, writeRecording } from "./frames.js";
-import { decode, writerOf } from "./messages.js";
+import { metres, packed, packedMillimetres, raw } from "./encodings.js";
+import { millimetres, png, quantised, readFrames, stampLines, writeRecording } from "./frames.js";
+import { decode } from "./messages.js";
 import { Peer } from "./peer.js";
-import { headerOf, Player, stampOf } from "./player.js";
-import { bin, domain, file, run } from "./program.js";
+import { Player, stampOf } from "./player.js";
+import { bin, domain, file, finished, run } from "./program.js";
 import { stampNs, trajectory } from "./trajectory.js";
 
 const kFrames = 30;
-const image = writerOf("sensor_msgs/Image");
-const compressed = writerOf("sensor_msgs/CompressedImage");
 const common = ["--headless", "--no-timing", "--mesh", file("unused.ply")];
 
 let camera;
 let frames;
 let peer;
-
-/** Runs to its end. */
-async function finished(...options) {
-  const { status, said } = await run(...options).ended;
-  assert.equal(status, 0, said);
-  return said;
-}
 
 before(async () => {
   const source = "sim:box?motion=moderate&noise=white&width=160&height=120";
@@ -51,26 +43,6 @@ function assertSameTrajectory(name, expected) {
   assert.deepEqual(seen, wanted);
 }
 
-const raw = (encoding, values, { padding = 0, bigEndian = false } = {}) => ({
-  type: "sensor_msgs/Image",
-  encode: (frame, stamp) => {
-    const data = values(frame);
-    const step = frame.width * data.BYTES_PER_ELEMENT + padding;
-    return image.writeMessage({
-      header: headerOf(stamp), height: frame.height, width: frame.width, encoding, is_bigendian: bigEndian ? 1 : 0, step,
-      data: rows(frame, data, step, bigEndian),
-    });
-  },
-});
-const metres = ({ metres }) => metres;
-const packed = (format, data) => ({
-  type: "sensor_msgs/CompressedImage",
-  encode: (frame, stamp) => compressed.writeMessage({ header: headerOf(stamp), format, data: data(frame) }),
-});
-const packedMillimetres = (frame) => {
-  const values = frame.width > 0 ? millimetres(frame) : new Uint16Array();
-  return new Uint8Array(Buffer.concat([Buffer.alloc(12), png(frame.width, frame.height, values)]));
-};
 const nothing = { width: 0, height: 0, metres: new Float32Array() };
 
 /** A recording of float images with these stamps. */

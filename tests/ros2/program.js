@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The program under test, and what all tests need to talk about its topics.
+import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
 import { mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -31,6 +32,13 @@ export function run(...options) {
   child.said = () => said;
   child.ended = new Promise((resolve) => child.once("exit", (status) => resolve({ status, said })));
   return child;
+}
+
+/** Runs to its end, which must be a good one. */
+export async function finished(...options) {
+  const { status, said } = await run(...options).ended;
+  assert.equal(status, 0, said);
+  return said;
 }
 
 export const ddsType = (type) => type.replace("/", "::msg::dds_::") + "_";

@@ -9,7 +9,7 @@ import { MessageReader } from "@foxglove/rosmsg2-serialization";
 import { McapIndexedReader, McapStreamReader } from "@mcap/core";
 import { millimetres, png } from "./frames.js";
 import { readerOf } from "./messages.js";
-import { file, run } from "./program.js";
+import { file, finished, run } from "./program.js";
 import { covariance, float, stampNs, trajectory } from "./trajectory.js";
 
 const kFrames = 40;
@@ -24,12 +24,6 @@ const types = {
   "/disflow/object/status": "diagnostic_msgs/msg/DiagnosticArray",
 };
 const nanoseconds = (stamp) => BigInt(stamp.sec) * 1000000000n + BigInt(stamp.nanosec ?? stamp.nsec);
-
-async function finished(...options) {
-  const { status, said } = await run(...options).ended;
-  assert.equal(status, 0, said);
-  return said;
-}
 
 /** Messages by topic, by the file's own schemas. */
 function decodeAll(schemas, channels, messages) {

@@ -181,8 +181,10 @@ hal::Fault IndexSequence(const ReplayOptions& options, SequenceIndex& index) {
   index = {};
   std::error_code error;
   if (!fs::is_directory(options.dir, error)) {
-    return hal::MakeFault(Status::kNotFound, "%s: is no folder; a recorded sequence is needed",
-                          options.dir.c_str());
+    const bool is_file = fs::is_regular_file(options.dir, error);
+    return hal::MakeFault(Status::kNotFound, "%s: is no folder; a recorded sequence is needed%s",
+                          options.dir.c_str(),
+                          is_file ? " (files that ROS recorded are rosbag:FILE?depth=TOPIC)" : "");
   }
   hal::Fault fault = ListFrames(options, index);
   if (options.camera) index.camera.camera = *options.camera;
