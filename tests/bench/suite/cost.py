@@ -40,6 +40,8 @@ ROWS = tuple(
     for profile in ("edge", "micro")
     for thing in ("box", "bottle")
     for noise, mask in (("d415", "gt"), ("d415", "none"), ("stereo", "gt"))
+    # Matched windows of nine pixels tell next to nothing of an object that is 60 pixels wide.
+    if not (noise == "stereo" and profile == "micro")
 )
 # Sequences on stereo take a minute each to make.
 QUICK_ROWS = tuple(row for row in ROWS if row.noise == "d415" and row.mask == "gt")
