@@ -56,10 +56,13 @@ PoseUncertainty FindPoseUncertainty(const RegistrationInformation& information,
   Mat6 apparent;
   for (int i = 0; i < 6; ++i) apparent.col(i) = lower.solve(Vec6(half.row(i).transpose()));
   const SymmetricEigen6 directions(apparent);
+  const Mat6 of_edges = information.total - information.surface;
 
   for (int i = 0; i < 6; ++i) {
     const Vec6 b = upper.solve(Vec6(directions.vectors.col(i)));
-    const float share = std::max(directions.values[i], 0.0F);
+    // No more than what the surface tells can be apparent.
+    const float of_surface = 1.0F - b.dot(of_edges * b);
+    const float share = std::clamp(directions.values[i], 0.0F, std::max(of_surface, 0.0F));
     const bool observed = share < kAllApparent;
     result.covariance += (1.0F / (observed ? 1.0F - share : kRest)) * b * b.transpose();
     if (observed) continue;

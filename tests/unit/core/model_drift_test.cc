@@ -70,7 +70,7 @@ TEST(Lever, IsTheRootMeanSquareDistance_WhicheverWayTheGradientsPoint) {
     }
     NormalEquations equations;
     equations += sums;
-    const float lever_m = LeverOf({equations.h, equations.Isotropic() - equations.h});
+    const float lever_m = LeverOf({equations.h, equations.h, equations.Isotropic() - equations.h});
     EXPECT_NEAR(lever_m, std::sqrt(moment_m2 / weight), 1e-3F * lever_m);
   }
 }

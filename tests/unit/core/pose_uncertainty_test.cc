@@ -39,7 +39,7 @@ RegistrationInformation SeenBody(float gradient_std, float ridge = 0.0F) {
   }
   NormalEquations equations;
   equations += sums;
-  return {equations.h, equations.Isotropic() - equations.h};
+  return {equations.h, equations.h, equations.Isotropic() - equations.h};
 }
 
 float Std(const Mat6& covariance, int i) { return std::sqrt(covariance(i, i)); }
@@ -66,6 +66,39 @@ TEST(PoseUncertainty, TurnOfACan_IsUnobservedThoughGradientsSeemToTellIt) {
   // What is observed stays known.
   for (int i = 0; i < 3; ++i) EXPECT_LT(Std(uncertainty.covariance, i), 3e-4F) << i;
   for (int i = 3; i < 5; ++i) EXPECT_LT(Std(uncertainty.covariance, i), 5e-3F) << i;
+}
+
+/// Edges along the body's axis, which tell its turn.
+RegistrationInformation WithEdges(RegistrationInformation information, int edges, float std_m) {
+  NormalSums sums;
+  for (int i = 0; i < edges; ++i) {
+    const float z_m = 0.1F * static_cast<float>(i) / static_cast<float>(edges) - 0.05F;
+    sums.Add(Vec3(0.0F, -kRadius_m, z_m), Vec3::UnitX(), 0.0F, 1.0F / (std_m * std_m));
+  }
+  NormalEquations equations;
+  equations += sums;
+  information.total += equations.h;
+  return information;
+}
+
+TEST(PoseUncertainty, TurnThatEdgesTell_IsObservedAsWellAsTheyTellIt) {
+  constexpr int kEdges = 50;
+  constexpr float kEdgeStd_m = 1e-3F;
+  const RegistrationInformation information = WithEdges(SeenBody(0.02F), kEdges, kEdgeStd_m);
+  const PoseUncertainty uncertainty = FindPoseUncertainty(information, kGradientStd_rad);
+  ASSERT_TRUE(uncertainty.solved);
+  EXPECT_TRUE(uncertainty.IsComplete());
+  const float by_edges_rad = kEdgeStd_m / (kRadius_m * std::sqrt(float{kEdges}));
+  EXPECT_GT(Std(uncertainty.covariance, 5), 0.8F * by_edges_rad);
+  EXPECT_LT(Std(uncertainty.covariance, 5), 1.3F * by_edges_rad);
+}
+
+TEST(PoseUncertainty, TurnThatAFewVagueEdgesTell_StaysUnobserved) {
+  const RegistrationInformation information = WithEdges(SeenBody(0.02F), 3, 20e-3F);
+  const PoseUncertainty uncertainty = FindPoseUncertainty(information, kGradientStd_rad);
+  ASSERT_TRUE(uncertainty.solved);
+  EXPECT_FALSE(uncertainty.IsComplete());
+  EXPECT_NEAR(uncertainty.unobserved(5, 5), 9.0F, 0.5F);
 }
 
 TEST(PoseUncertainty, ErrorThatTheFrameShows_CountsLikeOneThatIsKnown) {
@@ -99,8 +132,8 @@ TEST(PoseUncertainty, Plane_LeavesItsTwoShiftsAndItsTurnUnobserved) {
   }
   NormalEquations equations;
   equations += sums;
-  const PoseUncertainty uncertainty =
-      FindPoseUncertainty({equations.h, equations.Isotropic() - equations.h}, kGradientStd_rad);
+  const PoseUncertainty uncertainty = FindPoseUncertainty(
+      {equations.h, equations.h, equations.Isotropic() - equations.h}, kGradientStd_rad);
   ASSERT_TRUE(uncertainty.solved);
   EXPECT_GT(uncertainty.unobserved(0, 0), 0.1F);
   EXPECT_GT(uncertainty.unobserved(1, 1), 0.1F);

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "disflow/flow/registration.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -9,6 +7,7 @@
 #include <memory>
 #include <random>
 
+#include "disflow/flow/registration_impl.h"
 #include "model_builder.h"
 
 namespace disflow::testing {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "disflow/flow/pose_start.h"
-#include "disflow/flow/registration.h"
+#include "disflow/flow/registration_impl.h"
 #include "disflow/memory/fixed_vector.h"
 
 namespace disflow {

@@ -9,7 +9,8 @@ namespace disflow {
 /// What the residuals of one registration tell of (position of the centre, rotation), and what they
 /// only seem to tell. Object axes, about the same centre.
 struct RegistrationInformation {
-  Mat6 total = Mat6::Zero();  ///< H = sum w J^T J of samples and edges.
+  Mat6 total = Mat6::Zero();    ///< H = sum w J^T J of samples and edges.
+  Mat6 surface = Mat6::Zero();  ///< What of it the samples contribute, the edges the rest.
   /// What the samples would contribute to H if their gradients pointed anywhere across the true
   /// ones, per squared radian that they are off.
   Mat6 across = Mat6::Zero();
@@ -20,8 +21,8 @@ struct RegistrationInformation {
 /// How well one registration knows the pose.
 struct PoseUncertainty {
   Mat6 covariance = Mat6::Zero();  ///< Of (position, rotation).
-  /// Sum of u u^T over the directions u of which the surface tells nothing, each as far as an
-  /// object may move along it in a second. Zero when there are none.
+  /// Sum of u u^T over the directions u of which neither surface nor edges tell anything, each as
+  /// far as an object may move along it in a second. Zero when there are none.
   Mat6 unobserved = Mat6::Zero();
   bool solved = false;  ///< False when the information is not finite.
 
@@ -30,7 +31,8 @@ struct PoseUncertainty {
 
 /// Covariance from information with errors in the variables: a gradient that is off by a small
 /// angle looks as if a can's side told a rotation about the can's axis. What such errors explain is
-/// taken off the information; directions of which they explain half and more count as unobserved.
+/// taken off the information, but never what the edges tell; directions of which they explain half
+/// and more count as unobserved.
 /// Fuller, "Measurement Error Models", section 1.2.
 /// @param least_gradient_std Error of the field's gradients where the frame shows none, rad.
 [[nodiscard]] PoseUncertainty FindPoseUncertainty(const RegistrationInformation& information,

@@ -21,6 +21,8 @@ namespace disflow {
 /// Additions to the paper: weights 1/sigma^2 with a robust kernel whose width shrinks from step to
 /// step (graduated non-convexity), gates on normal agreement and matching distance, rotation about
 /// the observed centroid, occluding edges with the radius that they are rounded with.
+///
+/// Align() is defined in registration_impl.h.
 template <class Limits>
 class Registration {
  public:
@@ -102,43 +104,7 @@ class Registration {
   [[nodiscard]] Result Align(const Field& field, const Model& model_edges,
                              const RegistrationConfig& config, const PoseObjectFromCamera& T_start,
                              const PoseObjectFromCamera& T_predicted, RobustScale scale,
-                             int iterations) noexcept {
-    SurfaceResiduals<Limits> surfaces(field, samples_, config, known_);
-    EdgeResiduals<Limits> edges(model_edges, *edges_, config);
-    Result result;
-    result.T_oc = T_start;
-    result.points = samples_.size();
-    result.center_c = center_c_;
-    result.rounding = edges.known_rounding();
-    NormalEquations joint;
-    NormalEquations equations;
-    auto matching = Matching::kSearch;
-    for (int i = 0; i < iterations; ++i, scale = scale.Halved()) {
-      // V-D: H = sum J^T J and b = sum J^T d, at the current pose.
-      joint = Linearise(surfaces, edges, config, scale, matching, result);
-      equations = joint.WithoutRadius();
-      result.information.total = equations.h;
-      // V-E: the penalty on what deviates from the predicted motion.
-      equations.AddPrior(DeviationAbout(center_c_, result.T_oc, T_predicted), config.temporal_std_m,
-                         config.temporal_std_rad);
-      // V-D: H xi = -b, damped as V-E says.
-      Vec6 xi;
-      if (result.inliers < kMinInliers || !equations.Solve(config.damping, xi)) {
-        result.solved = false;
-        return result;
-      }
-      // V-D: T <- exp(xi) T.
-      result.T_oc = StepAbout(result.center_m, xi, result.T_oc);
-      edges.SetRadius(edges.radius_m() + joint.RadiusStep(xi));
-      result.iterations = i + 1;
-      result.solved = true;
-      matching = MatchingAfter(xi, i + 1, scale);
-      if (i + 1 >= kMinSteps && IsSmallerThan(xi, kConverged_m, kConverged_rad)) break;
-    }
-    // Once, at the end: it costs a factorisation.
-    if (result.solved) result.rounding = {edges.radius_m(), joint.RadiusVariance(equations)};
-    return result;
-  }
+                             int iterations) noexcept;
 
  private:
   /// How far a distance from the model is what is to be expected, 0..1.
@@ -164,48 +130,14 @@ class Registration {
 
   /// How the points are matched after a step: near the end they hardly move.
   [[nodiscard]] static Matching MatchingAfter(const Vec6& xi, int steps,
-                                              const RobustScale& scale) noexcept {
-    if (steps >= kMinSearches && scale.surface_m < kSettledScale_m &&
-        IsSmallerThan(xi, kSettled_m, kSettled_rad)) {
-      return Matching::kLinear;
-    }
-    return IsSmallerThan(xi, kNearby_m, kNearby_rad) ? Matching::kKeep : Matching::kSearch;
-  }
+                                              const RobustScale& scale) noexcept;
 
   /// One line per kind of residual.
   [[nodiscard]] NormalEquations Linearise(SurfaceResiduals<Limits>& surfaces,
                                           EdgeResiduals<Limits>& edges,
                                           const RegistrationConfig& config,
                                           const RobustScale& scale, Matching matching,
-                                          Result& result) const noexcept {
-    NormalEquations equations;
-    const PoseObjectFromCamera& T_oc = result.T_oc;
-    const Vec3 center_m = T_oc * center_c_;
-    const ResidualSums surface =
-        AddResiduals(surfaces, T_oc, center_m, {config, scale.surface_m}, matching);
-    equations += surface.normals;
-    // Of the surface alone: errors of the field's gradients do not touch the edges.
-    result.information.across = equations.Isotropic() - equations.h;
-    result.information.gradient_variance_rad2 = kFieldsTilt * surface.mean_tilt_rad2();
-    const ResidualSums edge =
-        AddResiduals(edges, T_oc, center_m, {config, scale.edges_m, result.edge_trust}, matching);
-    equations += edge.normals;
-
-    const EdgeRounding& known = edges.known_rounding();
-    equations.AddRadiusPrior(edges.radius_m() - known.radius_m, known.variance_m2);
-
-    result.center_m = center_m;
-    result.inliers = surface.inliers;
-    result.unmatched = surface.unmatched;
-    result.truncated = surface.truncated;
-    result.normal_mismatch = surface.normal_mismatch;
-    result.generation = surface.mean_generation();
-    result.rms_m = surface.rms_m();
-    result.edge_inliers = edge.inliers;
-    result.edge_trust =
-        EdgeTrust(config.edge_agreement, edges.size() - edge.unexpected, edge.inliers);
-    return equations;
-  }
+                                          Result& result) const noexcept;
 
   Samples samples_;
   typename SurfaceResiduals<Limits>::Known known_;
