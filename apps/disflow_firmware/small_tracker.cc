@@ -5,7 +5,7 @@
 
 namespace disflow {
 
-static_assert(sizeof(Tracker<firmware::Small>) <= 264U * 1024U);
+static_assert(sizeof(Tracker<firmware::Small>) <= 256U * 1024U);
 template class Tracker<firmware::Small>;
 
 }  // namespace disflow

@@ -180,8 +180,9 @@ class Octree {
                                     (((cell.z >> bit) & 1) << 2));
   }
 
-  /// Nodes of this level are found without descending from the root.
-  static constexpr int kEntryLevel = 4;
+  /// Nodes of this level are found without descending from the root. The table of them is eight
+  /// times as large per level: it stays a small part of what the nodes themselves take.
+  static constexpr int kEntryLevel = kMaxNodes > 512 ? 4 : 3;
   static constexpr int kEntryBit = kDepth - kEntryLevel;  ///< Of cells' coordinates: the node's.
   static constexpr int kEntriesPerEdge = 1 << kEntryLevel;
   [[nodiscard]] static std::size_t EntryIndex(const Cell& cell) noexcept {
