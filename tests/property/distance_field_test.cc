@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "disflow/field/distance_field.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
+#include "disflow/field/distance_field_fusion.h"
+#include "disflow/field/distance_field_training.h"
 #include "model_builder.h"
 
 namespace disflow::testing {

@@ -5,7 +5,8 @@
 #include <memory>
 #include <random>
 
-#include "disflow/field/distance_field.h"
+#include "disflow/field/distance_field_fusion.h"
+#include "disflow/field/distance_field_training.h"
 #include "disflow/limits.h"
 #include "shapes.h"
 

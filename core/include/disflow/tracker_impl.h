@@ -2,7 +2,10 @@
 #pragma once
 
 #include "disflow/depth/edge_sampler.h"
+#include "disflow/depth/seen_space_impl.h"
 #include "disflow/depth/segmenter_impl.h"
+#include "disflow/field/distance_field_fusion.h"
+#include "disflow/field/distance_field_training.h"
 #include "disflow/field/known_surface.h"
 #include "disflow/flow/model_agreement.h"
 #include "disflow/stage_stopwatch.h"

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "disflow/depth/seen_space.h"
-
 #include <gtest/gtest.h>
 
 #include <memory>
 
 #include "depth_scene.h"
+#include "disflow/depth/seen_space_impl.h"
 
 namespace disflow {
 namespace {

@@ -34,7 +34,8 @@ enum class Fusion : std::uint8_t {
 
 /// The object's surface as a signed distance field in the object frame, the zero level of d(x) as
 /// in equation (3): local Gaussian processes, equation (4), in an octree (section IV). Outside is
-/// positive.
+/// positive. What makes it, Insert() and Retrain(), is defined in distance_field_fusion.h and
+/// distance_field_training.h.
 template <class Limits>
 class DistanceField {
  public:
@@ -226,6 +227,3 @@ class DistanceField {
 };
 
 }  // namespace disflow
-
-#include "disflow/field/distance_field_fusion.h"
-#include "disflow/field/distance_field_training.h"
