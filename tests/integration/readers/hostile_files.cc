@@ -263,7 +263,7 @@ const std::vector<HostileFile>& HostileFiles() {
       {"CsvOfAHole", Reader::kCsv, "a.csv", Nothing, kHole},
       {"TruthOfOneLine", Reader::kTruth, "gt/poses.txt", OneField},
       {"TruthOfManyLines", Reader::kTruth, "gt/poses.txt", ManyLines},
-      {"TruthStampsOfOneLine", Reader::kTruth, "data.txt", OneField},
+      {"TruthStampsOfOneLine", Reader::kTruth, "data.txt", LineWithoutEnd},
       {"TruthStampsOfManyLines", Reader::kTruth, "data.txt", ManyLines},
       {"TruthStampsOfAHole", Reader::kTruth, "data.txt", Nothing, kHole},
       {"TruthOfAHole", Reader::kTruth, "gt/poses.txt", Nothing, kHole},
