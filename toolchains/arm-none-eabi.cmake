@@ -6,4 +6,5 @@ set(CMAKE_C_COMPILER arm-none-eabi-gcc)
 set(CMAKE_CXX_COMPILER arm-none-eabi-g++)
 # Eigen's NEON paths do not compile where int32_t is long, and these cores have no NEON.
 set(CMAKE_CXX_FLAGS_INIT "${DISFLOW_CPU_FLAGS} -fstack-usage -fcallgraph-info=su -ffunction-sections -fdata-sections -DEIGEN_DONT_VECTORIZE")
+set(CMAKE_C_FLAGS_INIT "${DISFLOW_CPU_FLAGS} -ffunction-sections -fdata-sections")
 set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)

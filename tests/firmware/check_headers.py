@@ -6,13 +6,15 @@ import re
 import sys
 
 # Freestanding by the standard (C++20, [compliance]).
+# As C has them, for the header that C includes.
+C_HEADERS = {'stddef.h', 'stdint.h'}
 FREESTANDING = {'atomic', 'bit', 'cfloat', 'climits', 'compare', 'concepts', 'cstdarg', 'cstddef', 'cstdint', 'initializer_list',
                 'limits', 'new', 'source_location', 'type_traits', 'version'}
 # Not freestanding by the standard, but what is used of them needs neither heap, exceptions nor an operating system.
 TEMPLATES = {'algorithm', 'array', 'cassert', 'cmath', 'cstring', 'iterator', 'span', 'string_view', 'utility'}
 EIGEN = {'Eigen/Cholesky', 'Eigen/Core', 'Eigen/Eigenvalues', 'Eigen/Geometry', 'Eigen/Jacobi'}
 ALLOWED = {
-    'core': FREESTANDING | TEMPLATES | EIGEN,
+    'core': FREESTANDING | TEMPLATES | EIGEN | C_HEADERS,
     # Texts of faults (vsnprintf) and addresses (from_chars) are for programs: firmware does not link them.
     'hal': FREESTANDING | TEMPLATES | EIGEN | {'charconv', 'cstdio', 'system_error'},
 }

@@ -6,7 +6,6 @@
 #include <cstdlib>
 #include <new>
 
-#include "disflow/baremetal/board.h"
 #include "gtest/gtest.h"
 #include "semihosting.h"
 
@@ -106,10 +105,6 @@ void Run(const char* suite, const char* name, Test* (*make)()) {
 }
 
 }  // namespace testing::internal
-
-namespace disflow::baremetal {
-void StartBoard() noexcept {}
-}  // namespace disflow::baremetal
 
 int main() {
   using namespace testing::internal;

@@ -1,0 +1,6 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "profile_binding.h"
+
+// A file of its own, so that a program which does not name the profile does not get its code.
+const disflow_profile disflow_dense =
+    disflow::c::MakeProfile<disflow::profiles::Dense, DISFLOW_DENSE_BYTES>();
