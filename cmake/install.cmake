@@ -22,6 +22,9 @@ foreach(program disflow_track disflow_sim disflow_eval)
     install(TARGETS ${program} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
   endif()
 endforeach()
+# For compilers without CMake: the core, from C++ (with Eigen's headers) and from C.
+configure_file(cmake/disflow.pc.in ${CMAKE_CURRENT_BINARY_DIR}/disflow.pc @ONLY)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/disflow.pc DESTINATION ${CMAKE_INSTALL_DATADIR}/pkgconfig)
 install(FILES LICENSE CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 install(EXPORT disflow_targets NAMESPACE disflow:: DESTINATION ${disflow_package_dir})

@@ -11,10 +11,14 @@ die() { printf 'package: %s\n' "$*" >&2; exit 1; }
 
 files="$(dpkg-deb --fsys-tarfile "$package" | tar -t)"
 for file in ./usr/bin/disflow_track ./etc/disflow/track.toml ./lib/systemd/system/disflow-track.service \
-  ./usr/include/disflow/tracker.h ./usr/lib/cmake/disflow/disflow-config.cmake ./usr/share/doc/disflow/deploy.md ./usr/share/doc/disflow/disflow.cdx.json; do
+  ./usr/include/disflow/tracker.h ./usr/lib/cmake/disflow/disflow-config.cmake ./usr/share/doc/disflow/deploy.md ./usr/share/doc/disflow/disflow.cdx.json \
+  ./usr/include/disflow.h ./usr/share/pkgconfig/disflow.pc ./usr/share/man/man1/disflow_track.1.gz \
+  ./usr/share/bash-completion/completions/disflow_track; do
   grep -qx "$file" <<<"$files" || die "$file is missing in $package"
 done
 [[ "$(dpkg-deb -f "$package" Depends)" == *libc6* ]] || die "$package has no dependencies"
+
+lintian --allow-root --fail-on error,warning "$package" || die "lintian finds faults in $package"
 
 # What the package for each processor must have; docs/deploy.md says what the ARM presets leave out and why.
 features() {
