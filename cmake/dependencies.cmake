@@ -6,7 +6,7 @@ set(disflow_missing "")
 set(disflow_missing_report "")
 # These are compiled, so a cross build needs those of its own architecture.
 set(disflow_compiled_packages
-  libpng-dev libtinyobjloader-dev libtomlplusplus-dev libcamera-dev cyclonedds-dev libwebsockets-dev
+  libpng-dev libtinyobjloader-dev libtomlplusplus-dev libyaml-cpp-dev libcamera-dev cyclonedds-dev libwebsockets-dev
   liblz4-dev libzstd-dev libsqlite3-dev zlib1g-dev libbz2-dev)
 
 # disflow_need(<found> <package> <what for> [<switch>]): notes a package as missing unless <found> is true.
@@ -45,10 +45,12 @@ if(DISFLOW_USES_FILES)
   find_package(nlohmann_json 3 QUIET)
   find_package(tinyobjloader QUIET)
   find_package(tomlplusplus QUIET)
+  find_package(yaml-cpp QUIET)
   disflow_need("${PNG_FOUND}" libpng-dev ${purpose} ${switch})
   disflow_need("${nlohmann_json_FOUND}" nlohmann-json3-dev ${purpose} ${switch})
   disflow_need("${tinyobjloader_FOUND}" libtinyobjloader-dev ${purpose} ${switch})
   disflow_need("${tomlplusplus_FOUND}" libtomlplusplus-dev ${purpose} ${switch})
+  disflow_need("${yaml-cpp_FOUND}" libyaml-cpp-dev ${purpose} ${switch})
 endif()
 if(DISFLOW_BUILD_APPS AND NOT CMAKE_SYSTEM_NAME STREQUAL "Generic")
   find_package(CLI11 QUIET)

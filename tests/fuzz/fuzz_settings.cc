@@ -5,6 +5,7 @@
 #include "file_in_memory.h"
 #include "program/exit_status.h"
 #include "settings/camera_file.h"
+#include "settings/ros_camera_file.h"
 #include "settings/settings.h"
 
 /// The settings file and the camera's: refused with file and words, or good enough to be used.
@@ -22,6 +23,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   try {
     const posix::CameraDescription camera = apps::ReadCameraFile(file.path());
+    fuzz::Require(camera.width_px > 0 && camera.height_px > 0 && camera.camera.fx_px >= 1.0F);
+  } catch (const apps::Failure& failure) {
+    fuzz::Require(std::string(failure.what()).find(file.path()) == 0);
+  }
+  try {
+    const posix::CameraDescription camera = apps::ReadRosCameraFile(file.path());
     fuzz::Require(camera.width_px > 0 && camera.height_px > 0 && camera.camera.fx_px >= 1.0F);
   } catch (const apps::Failure& failure) {
     fuzz::Require(std::string(failure.what()).find(file.path()) == 0);

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "disflow/posix/camera/camera_address.h"
+#include "settings/ros_camera_file.h"
 #include "settings/toml_file.h"
 
 namespace disflow::apps {
@@ -66,6 +67,7 @@ void RefuseUnknownKeys(const std::string& path, const toml::table& table) {
 }  // namespace
 
 posix::CameraDescription ReadCameraFile(const std::string& path) {
+  if (IsRosCameraFile(path)) return ReadRosCameraFile(path);
   const toml::table table = ParseTomlFile(path);
   RefuseUnknownKeys(path, table);
   std::array<double, kKeys.size()> values{};

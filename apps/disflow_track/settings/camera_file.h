@@ -7,7 +7,8 @@
 
 namespace disflow::apps {
 
-/// Reads a TOML file with width, height, fx, fy, cx, cy and, if wanted, depth_scale.
+/// Reads a TOML file with width, height, fx, fy, cx, cy and, if wanted, depth_scale; or, by the
+/// name .yaml or .yml, one of ROS's camera_calibration.
 /// @throws Failure kWrongUsage with file, line and key.
 [[nodiscard]] posix::CameraDescription ReadCameraFile(const std::string& path);
 

@@ -13,6 +13,7 @@
 #include "disflow/posix/mask_source.h"
 #include "disflow/surface_extractor.h"
 #include "program/exit_status.h"
+#include "settings/choice.h"
 #include "settings/dds_address.h"
 #include "settings/rosbag_help.h"
 #include "settings/setting_sources.h"
@@ -64,13 +65,13 @@ void AddInput(CLI::App& app, Options& options, SettingSources& settings) {
   app.add_option("--rate", options.rate,
                  "max: as fast as possible; realtime: at the pace of the capture stamps; live: so, "
                  "and what comes while the tracker is busy is lost [max; a camera is always live]")
-      ->transform(CLI::CheckedTransformer(kRates).description(""))
+      ->transform(Choice(kRates))
       ->type_name("max|realtime|live");
   app.add_option("--frames", options.frames, "Stop after this many frames [all]")
       ->check(CLI::Range(std::int64_t{1}, kMostFrames).description(""))
       ->type_name("N");
   app.add_option("--profile", options.profile, "Memory and image size, see docs/memory.md [edge]")
-      ->transform(CLI::CheckedTransformer(kProfiles).description(""))
+      ->transform(Choice(kProfiles))
       ->type_name("micro|edge|dense");
   app.add_option(
          "--config", settings.file,
@@ -133,7 +134,7 @@ void AddCameraPose(CLI::App& app, CameraPoseOptions& pose) {
       ->type_name("X,Y,Z,QW,QX,QY,QZ");
   app.add_option("--camera-world", pose.world,
                  "World frame of that ODOMETRY and of what is sent [frd]")
-      ->transform(CLI::CheckedTransformer(kWorlds).description(""))
+      ->transform(Choice(kWorlds))
       ->type_name("ned|enu|frd|flu");
   app.add_flag("--camera-own-clock", pose.own_clock,
                "That ODOMETRY is stamped on another clock than the depth images; the difference is "

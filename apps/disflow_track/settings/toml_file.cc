@@ -2,29 +2,12 @@
 #include "settings/toml_file.h"
 
 #include <algorithm>
-#include <array>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <string_view>
+
+#include "settings/settings_text.h"
 
 namespace disflow::apps {
 namespace {
-
-std::string ReadText(const std::string& file) {
-  constexpr std::size_t kMaxBytes = 1 << 18;
-  errno = 0;
-  std::ifstream stream(file, std::ios::binary);
-  // One more, to see that there are more.
-  std::string text(kMaxBytes + 1, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (!stream.eof() && stream.fail())
-    Refuse(file + ": ", std::string("cannot be read: ") + std::strerror(errno));
-  text.resize(static_cast<std::size_t>(stream.gcount()));
-  if (text.size() > kMaxBytes)
-    Refuse(file + ": ", "is longer than the " + std::to_string(kMaxBytes) + " bytes of settings");
-  return text;
-}
 
 /// Every dot of a key is a table in a table, which the parser builds and takes apart by recursion,
 /// as deep as the key is long.
@@ -41,7 +24,7 @@ void RefuseDeepKeys(const std::string& file, std::string_view text) {
 }  // namespace
 
 toml::table ParseTomlFile(const std::string& file) {
-  const std::string text = ReadText(file);
+  const std::string text = ReadSettingsText(file);
   RefuseDeepKeys(file, text);
   try {
     return toml::parse(text, file);

@@ -185,6 +185,20 @@ std::string TomlOfObjects() { return Repeat("", "[[object]]\n"); }
 std::string TomlOfNumbers() { return Repeat("[run]\nseed = [", "1,", "1]\n"); }
 std::string TomlOfALongText() { return "sensor = \"" + std::string(kMegabyte, 'a'); }
 
+// Short enough to be read as settings.
+std::string YamlOfBrackets() { return std::string(200'000, '['); }
+/// Each list holds the one before ten times over.
+std::string YamlOfAnchors() {
+  std::string text = "a0: &a0 [1]\n";
+  for (int i = 1; i < 100; ++i) {
+    const std::string before = "*a" + std::to_string(i - 1);
+    text += "a" + std::to_string(i) + ": &a" + std::to_string(i) + " [";
+    for (int copy = 0; copy < 9; ++copy) text += before + " , ";
+    text += before + " ]\n";
+  }
+  return text + "image_width: 8\nimage_height: 8\ncamera_matrix: *a99\n";
+}
+
 }  // namespace
 
 const std::vector<HostileFile>& HostileFiles() {
@@ -283,6 +297,10 @@ const std::vector<HostileFile>& HostileFiles() {
       {"CameraFileOfObjects", Reader::kCamera, "a.toml", TomlOfObjects},
       {"CameraFileOfNumbers", Reader::kCamera, "a.toml", TomlOfNumbers},
       {"CameraFileOfAHole", Reader::kCamera, "a.toml", Nothing, kHole},
+      {"RosCameraFileOfBrackets", Reader::kCamera, "a.yaml", YamlOfBrackets},
+      {"RosCameraFileOfAnchors", Reader::kCamera, "a.yaml", YamlOfAnchors},
+      {"RosCameraFileOfOneLine", Reader::kCamera, "a.yaml", LineWithoutEnd},
+      {"RosCameraFileOfAHole", Reader::kCamera, "a.yaml", Nothing, kHole},
   };
   return files;
 }
