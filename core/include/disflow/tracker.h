@@ -26,8 +26,8 @@ struct PoseSearchPrior;
 class StageStopwatch;
 
 /// Tracks and reconstructs one rigid object (the paper's section V). Owns all of its memory by
-/// value and never allocates: `static Tracker<profiles::Edge> tracker;` lives in .bss. Too large for
-/// most stacks (docs/memory.md). Not thread-safe; one instance per object.
+/// value and never allocates: `static Tracker<profiles::Edge> tracker;` lives in .bss. Too large
+/// for most stacks (docs/memory.md). Not thread-safe; one instance per object.
 /// @tparam Limits A profile of limits.h. For a profile of your own include tracker_impl.h in one
 /// source file.
 template <CapacityProfile Limits>
