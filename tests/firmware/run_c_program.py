@@ -1,12 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs docs/examples/track.c in the emulator and compares what it prints with the host's: MACHINE IMAGE HOST_PROGRAM"""
-import os
-import pathlib
 import re
-import shutil
 import subprocess
 import sys
+
+import emulated
 
 TOLERANCE = 2e-4  # m and quaternion's parts; sums are taken in another order
 TRIANGLES = 0.01  # share by which their number may differ
@@ -20,16 +19,7 @@ def run(command):
 
 
 machine, image, host_program = sys.argv[1:4]
-if 'DISFLOW_TEST_FIRMWARE' not in os.environ:
-    print('skipped: run by ./dev test --firmware')
-    sys.exit(77)
-if not shutil.which('qemu-system-arm'):
-    print('skipped: qemu-system-arm is missing')
-    sys.exit(77)
-if not pathlib.Path(image).exists():
-    sys.exit(f'{image} is not built')
-board = run(['qemu-system-arm', '-M', machine, '-display', 'none', '-monitor', 'none', '-serial', 'none',
-             '-semihosting-config', 'enable=on,target=native', '-kernel', image])
+board = run(emulated.command(machine, image))
 host = run([host_program])
 if len(board) != len(host) or len(host) < 31:
     sys.exit(f'{len(board)} lines on the board, {len(host)} on the host')

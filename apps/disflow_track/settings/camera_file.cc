@@ -14,8 +14,6 @@ namespace {
 
 using posix::CameraAddress;
 
-constexpr double kMax_px = 1e5;
-
 struct Key {
   const char* name;
   double min;
@@ -27,10 +25,10 @@ struct Key {
 constexpr std::array kKeys{
     Key{"width", 1.0, CameraAddress::kMaxSide_px, true, true},
     Key{"height", 1.0, CameraAddress::kMaxSide_px, true, true},
-    Key{"fx", 1.0, kMax_px, false, true},
-    Key{"fy", 1.0, kMax_px, false, true},
-    Key{"cx", -kMax_px, kMax_px, false, true},
-    Key{"cy", -kMax_px, kMax_px, false, true},
+    Key{"fx", 1.0, kMaxIntrinsic_px, false, true},
+    Key{"fy", 1.0, kMaxIntrinsic_px, false, true},
+    Key{"cx", -kMaxIntrinsic_px, kMaxIntrinsic_px, false, true},
+    Key{"cy", -kMaxIntrinsic_px, kMaxIntrinsic_px, false, true},
     Key{"depth_scale", 1e-7, 1.0, false, false},
 };
 

@@ -7,6 +7,9 @@
 
 namespace disflow::apps {
 
+/// Focal lengths and principal points beyond this are a fault in the file.
+inline constexpr double kMaxIntrinsic_px = 1e5;
+
 /// Reads a TOML file with width, height, fx, fy, cx, cy and, if wanted, depth_scale; or, by the
 /// name .yaml or .yml, one of ROS's camera_calibration.
 /// @throws Failure kWrongUsage with file, line and key.

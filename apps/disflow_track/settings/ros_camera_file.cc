@@ -8,13 +8,12 @@
 #include <vector>
 
 #include "disflow/posix/camera/camera_address.h"
+#include "settings/camera_file.h"
 #include "settings/refusal.h"
 #include "settings/settings_text.h"
 
 namespace disflow::apps {
 namespace {
-
-constexpr double kMax_px = 1e5;
 
 std::string At(const std::string& path, const YAML::Mark& mark) {
   return mark.is_null() ? path + ": " : path + ":" + std::to_string(mark.line + 1) + ": ";
@@ -61,7 +60,6 @@ std::vector<double> Numbers(const std::string& path, const YAML::Node& matrix, c
 
 void RefuseDistortion(const std::string& path, const YAML::Node& file) {
   constexpr double kAny = 1e9;
-  if (!file.IsMap()) return;
   const YAML::Node node = file["distortion_coefficients"];
   if (!node.IsDefined()) return;
   for (const double value : Numbers(path, node, "distortion_coefficients", kAny)) {
@@ -87,7 +85,7 @@ posix::CameraDescription ReadRosCameraFile(const std::string& path) {
     description.width_px = Side(path, file, "image_width");
     description.height_px = Side(path, file, "image_height");
     const YAML::Node matrix = Find(path, file, "camera_matrix");
-    const std::vector<double> k = Numbers(path, matrix, "camera_matrix", kMax_px);
+    const std::vector<double> k = Numbers(path, matrix, "camera_matrix", kMaxIntrinsic_px);
     const bool is_pinhole = k.size() == 9 && k[1] == 0.0 && k[3] == 0.0 && k[6] == 0.0 &&
                             k[7] == 0.0 && k[8] == 1.0 && k[0] >= 1.0 && k[4] >= 1.0;
     if (!is_pinhole) {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "disflow.h"
 #include "disflow/config.h"
@@ -24,7 +25,8 @@ struct disflow_tracker {
   virtual void Fuse(const disflow::DepthFrame& frame, const disflow::PoseObjectFromCamera& T_oc,
                     disflow::Estimate& estimate) noexcept = 0;
   virtual void Reset() noexcept = 0;
-  [[nodiscard]] virtual bool ShowsObject(int u, int v) const noexcept = 0;
+  /// 255 where the row's pixel showed the object, else 0.
+  virtual void WriteMaskRow(int v, std::span<std::uint8_t> row) const noexcept = 0;
   /// @param workspace Large enough.
   virtual disflow::Status ExtractSurface(const disflow::SurfaceOptions& options, void* workspace,
                                          disflow::TriangleSink& sink) const noexcept = 0;

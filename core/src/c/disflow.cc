@@ -9,8 +9,6 @@ namespace {
 
 using disflow::Status;
 
-constexpr float kSupportRadius_m = 0.008F;
-
 disflow_status Code(Status status) noexcept { return static_cast<disflow_status>(status); }
 
 /// Whether scratch memory will do.
@@ -120,11 +118,8 @@ disflow_status disflow_object_mask(const disflow_tracker* tracker, std::uint8_t*
     return DISFLOW_INVALID_IMAGE_SIZE;
   }
   const std::ptrdiff_t stride = stride_bytes != 0 ? stride_bytes : width_px;
-  for (std::int32_t v = 0; v < height_px; ++v) {
-    for (std::int32_t u = 0; u < width_px; ++u) {
-      mask[v * stride + u] = tracker->ShowsObject(u, v) ? 255 : 0;
-    }
-  }
+  for (std::int32_t v = 0; v < height_px; ++v)
+    tracker->WriteMaskRow(v, {mask + v * stride, static_cast<std::size_t>(width_px)});
   return DISFLOW_OK;
 }
 
@@ -156,6 +151,7 @@ disflow_status disflow_query(const disflow_tracker* tracker, const float* points
   }
   const disflow_status usable = CheckWorkspace(*tracker, workspace, workspace_bytes);
   if (usable != DISFLOW_OK) return usable;
-  const float radius_m = support_radius_m != 0.0F ? support_radius_m : kSupportRadius_m;
+  const float radius_m =
+      support_radius_m != 0.0F ? support_radius_m : disflow::SurfaceOptions{}.support_radius_m;
   return Code(tracker->Query(points_m, point_count, radius_m, workspace, distances));
 }

@@ -27,8 +27,8 @@ class ProfileTracker final : public disflow_tracker {
   }
   void Reset() noexcept override { tracker_.Reset(); }
 
-  [[nodiscard]] bool ShowsObject(int u, int v) const noexcept override {
-    return tracker_.last_mask().Test(u, v);
+  void WriteMaskRow(int v, std::span<std::uint8_t> row) const noexcept override {
+    for (int u = 0; std::uint8_t & pixel : row) pixel = tracker_.last_mask().Test(u++, v) ? 255 : 0;
   }
 
   Status ExtractSurface(const SurfaceOptions& options, void* workspace,

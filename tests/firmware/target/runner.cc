@@ -13,8 +13,6 @@ namespace {
 
 using disflow::firmware_test::Print;
 
-alignas(8) std::byte heap[DISFLOW_TEST_HEAP_BYTES];
-std::size_t heap_used = 0;
 int failures = 0;
 
 void PrintNumber(int number) {
@@ -65,14 +63,6 @@ void __cxa_pure_virtual() { GiveUp("pure virtual function called"); }
 int __aeabi_atexit(void* /*object*/, void (* /*destroy*/)(void*), void* /*dso*/) { return 0; }
 void* __dso_handle = nullptr;
 void abort() { GiveUp("abort"); }
-/// Memory for the C library's heap.
-void* _sbrk(std::ptrdiff_t more) {
-  if (more > static_cast<std::ptrdiff_t>(sizeof(heap) - heap_used))
-    return reinterpret_cast<void*>(-1);
-  void* const begin = heap + heap_used;
-  heap_used += static_cast<std::size_t>(more);
-  return begin;
-}
 }
 
 namespace testing::internal {

@@ -3,9 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "camera_file_fixture.h"
 #include "program/exit_status.h"
-#include "refusal.h"
-#include "scratch_folder.h"
 
 namespace disflow::apps {
 namespace {
@@ -13,15 +12,9 @@ namespace {
 constexpr const char* kComplete =
     "width = 640\nheight = 480\nfx = 570.5\nfy = 571\ncx = 319.5\ncy = 239.5\n";
 
-class CameraFileTest : public test::ScratchFolderTest {
+class CameraFileTest : public CameraFileFixture {
  protected:
-  [[nodiscard]] posix::CameraDescription Read(const std::string& text) const {
-    test::WriteFile(Path("camera.toml"), text);
-    return ReadCameraFile(Path("camera.toml"));
-  }
-  [[nodiscard]] std::string Refusal(const std::string& text) const {
-    return RefusalOf([&] { (void)Read(text); });
-  }
+  CameraFileTest() : CameraFileFixture("camera.toml") {}
 };
 
 TEST_F(CameraFileTest, AllNumbers_AreTaken) {

@@ -3,10 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "camera_file_fixture.h"
 #include "program/exit_status.h"
-#include "refusal.h"
-#include "scratch_folder.h"
-#include "settings/camera_file.h"
 
 namespace disflow::apps {
 namespace {
@@ -34,17 +32,14 @@ projection_matrix:
   data: [570.5, 0, 319.5, 0, 0, 571, 239.5, 0, 0, 0, 1, 0]
 )";
 
-class RosCameraFileTest : public test::ScratchFolderTest {
+class RosCameraFileTest : public CameraFileFixture {
  protected:
-  [[nodiscard]] posix::CameraDescription Read(const std::string& text) const {
-    test::WriteFile(Path("camera.yaml"), text);
-    return ReadCameraFile(Path("camera.yaml"));
-  }
+  RosCameraFileTest() : CameraFileFixture("camera.yaml") {}
   /// What is said of the file with one text in place of another.
   [[nodiscard]] std::string Refusal(const std::string& part, const std::string& instead) const {
     std::string text = kRectified;
     text.replace(text.find(part), part.size(), instead);
-    return RefusalOf([&] { (void)Read(text); });
+    return CameraFileFixture::Refusal(text);
   }
 };
 

@@ -1,0 +1,20 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Images in the emulator. Without what that needs the test is skipped (status 77)."""
+import os
+import pathlib
+import shutil
+import sys
+
+
+def command(machine, image):
+    """The emulator's command line for an image whose output and end go through semihosting."""
+    if 'DISFLOW_TEST_FIRMWARE' not in os.environ:
+        print('skipped: run by ./dev test --firmware')
+        sys.exit(77)
+    if not shutil.which('qemu-system-arm'):
+        print('skipped: qemu-system-arm is missing')
+        sys.exit(77)
+    if not pathlib.Path(image).exists():
+        sys.exit(f'{image} is not built')
+    return ['qemu-system-arm', '-M', machine, '-display', 'none', '-monitor', 'none', '-serial', 'none',
+            '-semihosting-config', 'enable=on,target=native', '-kernel', image]
