@@ -201,9 +201,10 @@ class Tracker {
   }
 
   py::array_t<std::uint8_t> ObjectMask() {
+    // The size is that of another thread's image, if one is at work.
+    const std::lock_guard lock(mutex_);
     py::array_t<std::uint8_t> mask({height_px_, width_px_});
     if (mask.size() == 0) return mask;
-    const std::lock_guard lock(mutex_);
     Require(disflow_object_mask(tracker_, mask.mutable_data(), static_cast<std::int32_t>(width_px_),
                                 static_cast<std::int32_t>(height_px_), 0),
             "object_mask");
