@@ -28,7 +28,8 @@ struct EstimateRow {
 
 /// A trajectory file: rows with increasing frame numbers.
 struct EstimateTable {
-  std::vector<EstimateRow> rows;         ///< Never empty.
+  std::vector<EstimateRow> rows;  ///< Never empty.
+  bool has_twists = true;
   std::vector<std::string> stage_names;  ///< Columns that end in "_ms", without that suffix.
 
   /// @return Position of a stage in stage_ms, or nothing.

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "evaluation.h"
 
+#include <utility>
+
+#include "foreign_trajectory.h"
 #include "mesh_metrics.h"
 #include "nearest_surface.h"
 #include "ply_file.h"
@@ -23,16 +26,16 @@ Report Evaluate(const EvaluationInput& input) {
   Report report;
   report.sequence = input.sequence;
   report.csv = input.csv.string();
-  const Sequence sequence = OpenSequence(input.sequence, input.model, input.object);
+  Sequence sequence = OpenSequence(input.sequence, input.model, input.object);
   const GroundTruth& truth = sequence.truth;
   report.note = truth.note;
-  report.estimates = LoadEstimates(input.csv, static_cast<int>(truth.T_ct.size()));
+  report.estimates = LoadTrajectory(input.csv, truth, input.object);
   report.model = sequence.model_name;
   const Surface& model = *sequence.model;
   const std::vector<Vec3d> model_points = Positions(SampleSurface(model, kAddPoints));
 
   report.model_points = model_points.size();
-  report.has_velocities = !truth.twists.empty();
+  report.has_velocities = !truth.twists.empty() && report.estimates.has_twists;
   report.run = Align(truth, report.estimates);
   const NearestSurface nearest(model, SampleSurface(model, kAddSurfacePoints));
   report.poses = EvaluatePoses(report.run, model_points,
@@ -48,6 +51,7 @@ Report Evaluate(const EvaluationInput& input) {
     report.surface = CompareMeshes(mesh, model, samples, seen);
     report.surface_calibration = CalibrateSurface(mesh, NearestSurface(model, samples), seen);
   }
+  report.truth = std::move(sequence.truth);
   return report;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "comparison.h"
 #include "errors.h"
 #include "evaluation.h"
 #include "fast_ycb.h"
@@ -14,10 +15,12 @@
 #include "report.h"
 #include "summary.h"
 #include "text_file.h"
+#include "trajectory_export.h"
 
 namespace {
 
 using disflow::apps::EvaluationInput;
+using disflow::apps::InputError;
 using disflow::apps::OutputError;
 using disflow::apps::Report;
 using disflow::apps::WriteFile;
@@ -31,6 +34,11 @@ struct Options {
   fs::path frames;
   fs::path plots;
   fs::path summary;
+  fs::path tum;
+  fs::path tum_truth;
+  fs::path bop;
+  fs::path latex;
+  std::vector<fs::path> compared;
   disflow::apps::FastYcbOptions fast_ycb;
 };
 
@@ -56,8 +64,20 @@ void Print(const std::string& table) {
   }
 }
 
+/// Beside the others, each judged like the first.
+std::vector<Report> EvaluateOthers(const Options& options) {
+  std::vector<Report> others;
+  for (const fs::path& csv : options.compared) {
+    EvaluationInput input = options.input;
+    input.csv = csv;
+    input.mesh.clear();
+    others.push_back(disflow::apps::Evaluate(input));
+  }
+  return others;
+}
+
 /// Writes what was asked for; one output that fails does not keep the others from being written.
-int WriteAll(const Report& report, const Options& options) {
+int WriteAll(const Report& report, const std::vector<Report>& others, const Options& options) {
   int status = kDone;
   const auto attempt = [&](auto write) {
     try {
@@ -65,6 +85,9 @@ int WriteAll(const Report& report, const Options& options) {
     } catch (const OutputError& error) {
       std::fprintf(stderr, "disflow_eval: %s\n", error.what());
       status = kOutputFailed;
+    } catch (const InputError& error) {
+      std::fprintf(stderr, "disflow_eval: %s\n", error.what());
+      status = kInputFailed;
     }
   };
   if (!report.note.empty()) {
@@ -72,6 +95,22 @@ int WriteAll(const Report& report, const Options& options) {
   }
   std::vector<disflow::apps::Plot> plots;
   attempt([&] { Print(disflow::apps::FormatTable(report)); });
+  std::vector<const Report*> all{&report};
+  for (const Report& other : others) all.push_back(&other);
+  if (!others.empty()) attempt([&] { Print("\n" + disflow::apps::FormatComparison(all)); });
+  if (!options.latex.empty()) {
+    attempt([&] { WriteFile(options.latex, disflow::apps::FormatLatex(all)); });
+  }
+  if (!options.tum.empty()) {
+    attempt([&] { WriteFile(options.tum, disflow::apps::FormatTum(report)); });
+  }
+  if (!options.tum_truth.empty()) {
+    attempt([&] { WriteFile(options.tum_truth, disflow::apps::FormatTumTruth(report)); });
+  }
+  if (!options.bop.empty()) {
+    attempt(
+        [&] { WriteFile(options.bop, disflow::apps::FormatBop(report, options.input.object)); });
+  }
   if (!options.json.empty()) {
     attempt([&] { WriteFile(options.json, disflow::apps::FormatJson(report)); });
   }
@@ -106,7 +145,8 @@ void AddSequence(CLI::App& app, Options& options) {
   app.add_option("SEQUENCE", options.input.sequence,
                  "Sequence with ground truth: a folder, or the sim: address that was tracked");
   app.add_option("--csv", options.input.csv,
-                 "Trajectory to judge, as disflow_track --csv writes it")
+                 "Trajectory to judge: as disflow_track --csv writes it, or in the format of the "
+                 "TUM RGB-D or the BOP benchmark, of the object in the camera's frame")
       ->type_name("FILE");
   app.add_option("--object", options.input.object, "Which object, if the sequence has several")
       ->type_name("NAME");
@@ -116,6 +156,16 @@ void AddSequence(CLI::App& app, Options& options) {
   app.add_option(
          "--mesh", options.input.mesh,
          "Surface to judge, PLY in the tracker's object frame, as disflow_track --mesh writes it")
+      ->type_name("FILE");
+  app.add_option("--compare", options.compared,
+                 "Other trajectories of the sequence, to be shown beside the first")
+      ->type_name("FILE...");
+  app.add_option("--latex", options.latex, "Write the paper's table with all of them, for LaTeX")
+      ->type_name("FILE");
+  app.add_option("--tum", options.tum, "Write the poses as the TUM benchmark has them, for evo")
+      ->type_name("FILE");
+  app.add_option("--tum-truth", options.tum_truth, "Write the true poses so")->type_name("FILE");
+  app.add_option("--bop", options.bop, "Write the poses as results of the BOP benchmark")
       ->type_name("FILE");
   app.add_option("--json", options.json, "Write all metrics as JSON")->type_name("FILE");
   app.add_option("--frames", options.frames, "Write the errors of every frame as CSV")
@@ -169,7 +219,8 @@ int main(int argc, char** argv) {
   }
   try {
     if (whole_set) return RunFastYcb(options.fast_ycb);
-    return WriteAll(disflow::apps::Evaluate(options.input), options);
+    const Report report = disflow::apps::Evaluate(options.input);
+    return WriteAll(report, EvaluateOthers(options), options);
   } catch (const OutputError& error) {
     std::fprintf(stderr, "disflow_eval: %s\n", error.what());
     return kOutputFailed;

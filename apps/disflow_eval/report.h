@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "consistency.h"
+#include "ground_truth.h"
 #include "mesh_metrics.h"
 #include "pose_metrics.h"
 #include "surface_calibration.h"
@@ -34,6 +35,7 @@ struct Report {
   std::string model;
   std::size_t model_points = 0;
   bool has_velocities = false;
+  GroundTruth truth;
   EstimateTable estimates;
   AlignedTrajectory run;  ///< Points into `estimates`.
   PoseMetrics poses;

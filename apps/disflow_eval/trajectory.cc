@@ -9,8 +9,6 @@
 namespace disflow::apps {
 namespace {
 
-bool HasPose(const EstimateRow& row) { return row.status.empty() || row.status == "ok"; }
-
 /// Stamps are compared since the aligned frame, for the clocks may differ; far less than a frame's
 /// time.
 constexpr double kStampTolerance_s = 0.002;
@@ -22,12 +20,14 @@ bool StampsDiffer(const GroundTruth& truth, const EstimateRow& first, const Esti
   return std::abs(row.timestamp_s - first.timestamp_s - expected_s) > kStampTolerance_s;
 }
 
-bool IsLost(const EstimateRow& row) { return !HasPose(row) || row.state == "lost"; }
+bool IsLost(const EstimateRow& row) { return !IsMeasured(row) || row.state == "lost"; }
 
 }  // namespace
 
+bool IsMeasured(const EstimateRow& row) { return row.status.empty() || row.status == "ok"; }
+
 AlignedTrajectory Align(const GroundTruth& truth, const EstimateTable& estimates) {
-  const auto first = std::find_if(estimates.rows.begin(), estimates.rows.end(), HasPose);
+  const auto first = std::find_if(estimates.rows.begin(), estimates.rows.end(), IsMeasured);
   if (first == estimates.rows.end()) {
     throw InputError("no row of the estimates has the status 'ok', so nothing can be aligned");
   }

@@ -32,6 +32,9 @@ struct AlignedTrajectory {
   [[nodiscard]] std::size_t missing() const { return frame_count - frames.size(); }
 };
 
+/// Whether a row says that its pose was measured; one without a status is taken for it.
+[[nodiscard]] bool IsMeasured(const EstimateRow& row);
+
 /// A model-free tracker defines its own object frame, so the estimate is made equal to the truth
 /// once: at the first row whose status is "ok" (any, if there is no such column), frame 0 as a
 /// rule. Lost rows are kept as they stand.

@@ -6,6 +6,7 @@
 #include "errors.h"
 #include "estimate_csv.h"
 #include "file_in_memory.h"
+#include "foreign_trajectory.h"
 #include "ground_truth.h"
 #include "model_file.h"
 #include "ply_file.h"
@@ -58,11 +59,27 @@ void CheckTruth(const std::filesystem::path& folder) {
   Require(truth.stamps_s.empty() || truth.stamps_s.size() == truth.T_ct.size());
 }
 
+/// Trajectories of others, of a sequence with a few frames.
+void CheckForeign(const std::filesystem::path& file) {
+  apps::GroundTruth sequence;
+  sequence.T_ct.resize(4);
+  sequence.stamps_s = {0.0, 1.0, 2.0, 3.0};
+  sequence.file_indices = {0, 1, 2, 3};
+  const apps::EstimateTable table = apps::LoadTrajectory(file, sequence, "");
+  Require(!table.rows.empty());
+  int last = -1;
+  for (const apps::EstimateRow& row : table.rows) {
+    Require(row.frame > last && row.frame < 4);
+    Require(!row.has_motion || row.T_co.IsFinite());
+    last = row.frame;
+  }
+}
+
 void Check(std::uint8_t kind, const fuzz::FileInMemory& file) {
   static const fuzz::FolderWithFile obj(file, {"a.obj"});
   static const fuzz::FolderWithFile xyz(file, {"a.xyz"});
   static const fuzz::FolderWithFile truth(file, {"gt/poses.txt"});
-  switch (kind % 6) {
+  switch (kind % 7) {
     case 0:
       return CheckSurface(apps::LoadModel(obj.file()));
     case 1:
@@ -73,6 +90,8 @@ void Check(std::uint8_t kind, const fuzz::FileInMemory& file) {
       return CheckSimulatedObject(file);
     case 4:
       return CheckEstimates(file.path());
+    case 5:
+      return CheckForeign(file.path());
     default:
       return CheckTruth(truth.path());
   }
