@@ -217,6 +217,15 @@ disflow_status disflow_fuse(disflow_tracker* tracker, const disflow_frame* frame
 /** Forgets the object; the next frame starts a new one. */
 void disflow_reset(disflow_tracker* tracker);
 
+/** Forgets the object for another one: the next frame starts what lies at a pixel, or the nearest
+ * surface within reach_px of it; disflow::Tracker::Choose(). For frames without a mask.
+ * @return DISFLOW_INVALID_CONFIG, and nothing changes, if a number is out of range. */
+disflow_status disflow_choose_pixel(disflow_tracker* tracker, int32_t u_px, int32_t v_px,
+                                    int32_t reach_px);
+/** The same with the nearest thing in a part of the image, whose upper left pixel is x_px, y_px. */
+disflow_status disflow_choose_box(disflow_tracker* tracker, int32_t x_px, int32_t y_px,
+                                  int32_t width_px, int32_t height_px);
+
 /** Which pixels of the last frame were taken for the object, as 255 and 0.
  * @param mask height_px rows of width_px bytes each, stride_bytes apart (0 = width_px). */
 disflow_status disflow_object_mask(const disflow_tracker* tracker, uint8_t* mask, int32_t width_px,

@@ -27,4 +27,12 @@ PixelBox RegionOfInterest(const DepthFrame& frame, const SegmenterConfig& config
   return box;
 }
 
+PixelBox Surroundings(const PixelBox& region, const DepthFrame& frame) noexcept {
+  const int du = region.width() / 2;
+  const int dv = region.height() / 2;
+  return {std::max(0, region.u_min - du), std::max(0, region.v_min - dv),
+          std::min(frame.depth.width_px, region.u_max + du),
+          std::min(frame.depth.height_px, region.v_max + dv)};
+}
+
 }  // namespace disflow

@@ -69,7 +69,8 @@ void SplitQuery(std::string_view text, std::string_view& rest, std::string_view&
          ParseNumber(After(option, name.size()), max, value);
 }
 
-/// Options parted by '&': a number by the name that this kind of link has for it, and key=FILE.
+/// Options parted by '&': a number by the name that this kind of link has for it, key=FILE and
+/// choose=yes.
 /// @return false for anything else, and for one that is given twice.
 [[nodiscard]] bool ParseOptions(std::string_view query, std::string_view name, std::uint32_t max,
                                 std::uint32_t& value, LinkAddress& address) noexcept {
@@ -77,9 +78,11 @@ void SplitQuery(std::string_view text, std::string_view& rest, std::string_view&
   while (!query.empty()) {
     const std::size_t end = query.find('&');
     const std::string_view option = Before(query, end);
+    const bool is_choice = option == "choose=yes" && !address.may_choose;
+    address.may_choose = address.may_choose || is_choice;
     const bool is_key = option.starts_with(kKey) && address.key_file[0] == '\0' &&
                         CopyText(After(option, kKey.size()), address.key_file);
-    if (!is_key && !ParseOption(option, name, max, value)) return false;
+    if (!is_key && !is_choice && !ParseOption(option, name, max, value)) return false;
     if (end == std::string_view::npos) return true;
     query = After(query, end + 1);
     if (query.empty()) return false;
@@ -112,7 +115,8 @@ void SplitQuery(std::string_view text, std::string_view& rest, std::string_view&
   address.port = static_cast<std::uint16_t>(port);
   std::uint32_t bind_port = 0;
   if (!ParseOptions(query, "bind=", kMaxPort, bind_port, address)) {
-    return BadUri(uri, "options are ?bind=PORT, a number from 1 to 65535, and &key=FILE");
+    return BadUri(uri,
+                  "options are ?bind=PORT, a number from 1 to 65535, &key=FILE and &choose=yes");
   }
   address.bind_port = static_cast<std::uint16_t>(bind_port);
   return {};
@@ -128,7 +132,8 @@ void SplitQuery(std::string_view text, std::string_view& rest, std::string_view&
   }
   std::uint32_t baud = 0;
   if (!ParseOptions(query, "baud=", kMaxBaud, baud, address)) {
-    return BadUri(uri, "options are ?baud=RATE, a number from 1 to 4000000, and &key=FILE");
+    return BadUri(uri,
+                  "options are ?baud=RATE, a number from 1 to 4000000, &key=FILE and &choose=yes");
   }
   if (baud != 0) address.baud = baud;
   return {};

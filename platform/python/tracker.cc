@@ -29,6 +29,10 @@ void Require(disflow_status status, const char* what) {
     throw std::runtime_error(std::string(what) + ": " + disflow_describe(status));
 }
 
+void RequireChoice(disflow_status status) {
+  if (status != DISFLOW_OK) throw py::value_error("what is chosen lies in no image");
+}
+
 /// A view of a depth image. It is read where it is, so it must be laid out in rows.
 void SetDepth(const py::array& depth, disflow_frame& frame) {
   const bool raw = py::isinstance<py::array_t<std::uint16_t>>(depth);
@@ -131,6 +135,16 @@ class Tracker {
   void Reset() {
     const std::lock_guard lock(mutex_);
     disflow_reset(tracker_);
+  }
+
+  void ChoosePixel(std::int32_t u_px, std::int32_t v_px, std::int32_t reach_px) {
+    const std::lock_guard lock(mutex_);
+    RequireChoice(disflow_choose_pixel(tracker_, u_px, v_px, reach_px));
+  }
+  void ChooseBox(std::int32_t x_px, std::int32_t y_px, std::int32_t width_px,
+                 std::int32_t height_px) {
+    const std::lock_guard lock(mutex_);
+    RequireChoice(disflow_choose_box(tracker_, x_px, y_px, width_px, height_px));
   }
 
   py::tuple ExtractMesh(float resolution_m, float support_radius_m) {
@@ -278,6 +292,12 @@ void BindTracker(py::module_& module) {
            "Adds a frame whose pose is known to the model; T_oc: the camera in the object's frame, "
            "4x4.")
       .def("reset", &Tracker::Reset, "Forgets the object; the next frame starts a new one.")
+      .def(
+          "choose_pixel", &Tracker::ChoosePixel, "u_px"_a, "v_px"_a, "reach_px"_a = 0,
+          "Forgets the object; the next frame without a mask starts what lies at the pixel, or the "
+          "nearest surface\nwithin reach_px of it.")
+      .def("choose_box", &Tracker::ChooseBox, "x_px"_a, "y_px"_a, "width_px"_a, "height_px"_a,
+           "The same with the nearest thing in a part of the image.")
       .def("mesh", &Tracker::ExtractMesh, "resolution_m"_a = 0.0025F, "support_radius_m"_a = 0.008F,
            "The surface: (vertices n x 3, triangles m x 3, normals n x 3, std_m n), object frame.")
       .def("samples", &Tracker::Samples,

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "dds/dds_choice.h"
 #include "dds/dds_clock.h"
 #include "dds/dds_inputs.h"
 #include "dds/dds_query.h"
@@ -126,21 +127,68 @@ void CheckQueries(FuzzedNumbers& input) {
   Require(turns <= Queries::kMaxRequests * (Queries::kMaxPoints / Queries::kPointsPerTurn + 1));
 }
 
+/// What somebody chooses lies in the image, or is none.
+void CheckStart(const apps::ObjectChoice& choice) {
+  DepthFrame frame;
+  frame.depth.width_px = kWidth_px;
+  frame.depth.height_px = kHeight_px;
+  frame.camera = {20.0F, 20.0F, 8.0F, 6.0F};
+  const auto start = apps::StartIn(frame, choice);
+  if (!start) return;
+  Require(start->seed_u_px >= -1 && start->seed_u_px < kWidth_px);
+  Require(start->seed_v_px >= -1 && start->seed_v_px < kHeight_px);
+  Require(start->roi_x_px >= 0 && start->roi_x_px < kWidth_px && start->roi_width_px <= kWidth_px);
+  Require(start->seed_reach_px >= 0 && start->seed_reach_px <= kWidth_px);
+  if (choice.kind == apps::ObjectChoice::Kind::kMask)
+    Require(choice.mask.size() == std::size_t{kWidth_px} * kHeight_px);
+}
+
+void CheckChoices(FuzzedNumbers& input) {
+  apps::DdsAddress address;
+  address.camera_frame = "camera";
+  address.world_frame = "map";
+  std::string name = TakeFrame(input);
+  ros::PointStamped clicked{};
+  clicked.header.frame_id = name.data();
+  clicked.point = input.Take<ros::Point>();
+  if (const auto choice = ChoiceOf(clicked, address)) CheckStart(*choice);
+  ros::ChooseRequest request{};
+  request.u = input.Take<std::uint8_t>();
+  request.v = input.Take<std::uint8_t>();
+  request.width = input.Take<std::uint32_t>();
+  request.height = input.Take<std::uint32_t>();
+  request.reach = input.Take<std::uint32_t>();
+  std::string encoding = input.Take<std::uint8_t>() % 4 != 0 ? "mono8" : input.TakeText();
+  request.mask.encoding = encoding.data();
+  request.mask.width =
+      input.Take<std::uint8_t>() % 4 != 0 ? kWidth_px : input.Take<std::uint32_t>();
+  request.mask.height =
+      input.Take<std::uint8_t>() % 4 != 0 ? kHeight_px : input.Take<std::uint32_t>();
+  request.mask.step = input.Take<std::uint8_t>() % 4 != 0 ? kWidth_px : input.Take<std::uint32_t>();
+  std::vector<std::uint8_t> pixels = input.rest();
+  posix::Lend(pixels, request.mask.data);
+  apps::ObjectChoice choice;
+  if (ReadChoice(request, {kWidth_px, kHeight_px}, choice).empty()) CheckStart(choice);
+}
+
 }  // namespace
 
 /// The first byte chooses what is sent.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   FuzzedNumbers input(data + 1, size - 1);
-  switch (data[0] % 3) {
+  switch (data[0] % 4) {
     case 0:
       CheckTransforms(input);
       break;
     case 1:
       CheckMask(input);
       break;
-    default:
+    case 2:
       CheckQueries(input);
+      break;
+    default:
+      CheckChoices(input);
       break;
   }
   return 0;

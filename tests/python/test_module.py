@@ -48,6 +48,19 @@ class Tracking(unittest.TestCase):
         self.assertEqual(nothing.kind, 'refused')
         self.assertTrue(np.isnan(nothing.position_m).all())
 
+    def test_chosen_place_is_where_the_next_object_starts(self):
+        depth = np.full((HEIGHT, WIDTH), 1.5, np.float32)
+        depth[60:180, 40:120], depth[60:180, 200:280] = 0.5, 0.7
+        tracker = disflow.Tracker()
+        self.assertAlmostEqual(tracker.process(depth, CAMERA, 1).position_m[2], 0.5, places=2)
+        tracker.choose_pixel(290, 120, reach_px=11)
+        self.assertAlmostEqual(tracker.process(depth, CAMERA, 2).position_m[2], 0.7, places=2)
+        tracker.choose_box(30, 50, 100, 140)
+        self.assertAlmostEqual(tracker.process(depth, CAMERA, 3).position_m[2], 0.5, places=2)
+        for wrong in (lambda: tracker.choose_pixel(-1, 5), lambda: tracker.choose_box(0, 0, 0, 5)):
+            with self.assertRaisesRegex(ValueError, 'no image'):
+                wrong()
+
     def test_rows_that_are_not_adjacent_are_read_in_place(self):
         wide = np.zeros((HEIGHT, 2 * WIDTH), np.float32)
         wide[:, :WIDTH] = depth_at(0.0)

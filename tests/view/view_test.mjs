@@ -2,11 +2,14 @@
 // The live view in a real browser: node --test view_test.mjs, with DISFLOW_TRACK, DISFLOW_CHROMIUM and a folder for pictures in
 // DISFLOW_PICTURES.
 import assert from 'node:assert/strict';
-import { mkdirSync } from 'node:fs';
+import { mkdirSync, mkdtempSync, rmSync } from 'node:fs';
 import { readFile } from 'node:fs/promises';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
 import { after, afterEach, before, beforeEach, test } from 'node:test';
 import { chromium } from 'playwright-core';
 import { startTrack } from './track.mjs';
+import { distance, errorOf, placeOf, poseOf, rowsOf, truthOf } from './truth.mjs';
 
 const kPatience_ms = 90_000;
 const kToken = 'a-token-for-the-test';
@@ -157,6 +160,139 @@ async function checkPly(bytes) {
     for (let i = 0; i < 3; i += 1) assert.ok(bytes.readInt32LE(at + 1 + 4 * i) < vertices);
   }
 }
+
+/** Two things that move, and what is known of them; the one that is nearer is tracked unless somebody chooses. */
+function twoThings(folder) {
+  const sensor = 'sim:box+bottle?motion=moderate&frames=6000&width=320&height=180&mask=none';
+  return { sensor, ...truthOf(folder, sensor, { width: 320, height: 180 }, ['box', 'bottle']) };
+}
+
+/** Whether neither thing hides the other from a frame on, for so many. */
+function areApart({ camera, poses }, from, count) {
+  const kApart = 0.27; // Of the picture's width; the box is half as wide.
+  const between = ({ box, bottle }) => Math.hypot(box.u - bottle.u, ((box.v - bottle.v) * camera.height) / camera.width);
+  const places = (k) => ({ box: placeOf(poses.box[k].position, camera), bottle: placeOf(poses.bottle[k].position, camera) });
+  for (let k = from; k < from + count; k += 1) if (between(places(k)) < kApart) return false;
+  return true;
+}
+
+/** Pauses the run at a frame from which on both things can be seen for a while. */
+async function pauseWithBothInView(scene) {
+  for (;;) {
+    while (!areApart(scene, await frame(), 30)) await page.waitForTimeout(20);
+    await page.click('#pause');
+    await untilBanner('Paused');
+    await page.waitForTimeout(500); // What was on its way has come by then.
+    if (areApart(scene, await frame(), 8)) return;
+    await page.click('#pause');
+    await untilBanner(null);
+  }
+}
+
+/**
+ * Presses Choose and points at a thing as it is in the picture that is shown. While the run is paused, or on a busy machine the
+ * thing would be elsewhere by then. @returns the frame shown.
+ */
+async function pointAt(scene, thing, { box_px = 0 } = {}) {
+  const { camera, poses } = scene;
+  await pauseWithBothInView(scene);
+  await page.click('#choose');
+  assert.equal(await page.getAttribute('#choose', 'aria-pressed'), 'true');
+  await page.locator('#depth').scrollIntoViewIfNeeded();
+  const picture = await page.locator('#depth').boundingBox();
+  const shown = await frame();
+  const { u, v } = placeOf(poses[thing][shown].position, camera);
+  const [x, y] = [picture.x + u * picture.width, picture.y + v * picture.height];
+  if (box_px === 0) {
+    await page.mouse.click(x, y);
+  } else {
+    await page.mouse.move(x - box_px, y - box_px);
+    await page.mouse.down();
+    await page.mouse.move(x, y);
+    await page.screenshot({ path: `${pictures}/choosing.png`, timeout: kPatience_ms });
+    await page.mouse.move(x + box_px, y + box_px);
+    await page.mouse.up();
+  }
+  assert.equal(await page.getAttribute('#choose', 'aria-pressed'), 'false');
+  await page.click('#pause');
+  await untilBanner(null);
+  return shown;
+}
+
+/** Whether five frames after the object was begun anew its pose is true. */
+function checkChosen(rows, restarts, truth, wrong) {
+  const begin = rows.findIndex((row) => Number(row.reset_counter) === restarts);
+  assert.ok(begin >= 0, `never begun for the ${restarts}. time`);
+  const later = rows[begin + 5];
+  assert.ok(rows.slice(begin, begin + 6).every((row) => row.status === 'ok'), 'a frame has no pose');
+  const [first, last] = [rows[begin], later].map((row) => Number(row.frame));
+  const said = [rows[begin], later].map(poseOf);
+  const off = [truth, wrong].map((poses) => distance(said[0].position, poses[first].position).toFixed(3));
+  assert.ok(distance(said[0].position, truth[first].position) < 0.1, `something else is tracked: ${off} m off, frame ${first}`);
+  assert.ok(distance(said[0].position, wrong[first].position) > 0.1, 'what was tracked before still is');
+  const error = errorOf(said, [truth[first], truth[last]]);
+  assert.ok(error.position_m < 0.005 && error.angle_deg < 3, JSON.stringify(error));
+  return first;
+}
+
+test('who clicks another thing in the depth image has its true pose within five frames', async () => {
+  const folder = mkdtempSync(join(tmpdir(), 'disflow-view-'));
+  try {
+    const scene = twoThings(folder);
+    const csv = join(folder, 'run.csv');
+    track = await startTrack([scene.sensor], { more: ['--csv', csv] });
+    await open(track.address);
+    await untilTracking();
+    // Without the button a click does nothing.
+    await page.click('#depth');
+    const clicked = await pointAt(scene, 'bottle');
+    await until(() => document.querySelector('#values dd[data-name="Restarts"]').textContent === '1');
+    await untilTracking();
+    await untilFrameAfter((await frame()) + 10);
+    await page.click('#choose');
+    await page.keyboard.press('Escape');
+    assert.equal(await page.getAttribute('#choose', 'aria-pressed'), 'false');
+    await pointAt(scene, 'box', { box_px: 75 });
+    await until(() => document.querySelector('#values dd[data-name="Restarts"]').textContent === '2');
+    await untilFrameAfter((await frame()) + 10);
+    await track.stop();
+    const rows = rowsOf(csv);
+    assert.equal(rows[clicked].reset_counter, '0');
+    const begun = checkChosen(rows, 1, scene.poses.bottle, scene.poses.box);
+    console.log(`begun ${begun - clicked} frames after the one that was clicked in`);
+    checkChosen(rows, 2, scene.poses.box, scene.poses.bottle);
+    assert.deepEqual(complaints, []);
+  } finally {
+    rmSync(folder, { recursive: true });
+  }
+});
+
+test('of several objects the one that is shown is chosen anew, and the other goes on', async () => {
+  const folder = mkdtempSync(join(tmpdir(), 'disflow-view-'));
+  try {
+    const scene = twoThings(folder);
+    const { u, v } = placeOf(scene.poses.box[0].position, scene.camera);
+    const seed = `${Math.round(u * 320)}:${Math.round(v * 180)}`;
+    const more = ['--csv', join(folder, 'run.csv'), '--object', `name=one,seed=${seed}`, '--object', 'name=other,roi=0:0:8:8'];
+    track = await startTrack([scene.sensor], { more });
+    await open(track.address);
+    await untilTracking();
+    await page.click('#objects button:nth-child(2)');
+    await until(() => document.getElementById('state').dataset.state === 'initialising');
+    const clicked = await pointAt(scene, 'bottle');
+    await untilTracking();
+    await untilFrameAfter((await frame()) + 10);
+    await track.stop();
+    const [one, other] = ['one', 'other'].map((name) => rowsOf(join(folder, `run-${name}.csv`)));
+    assert.ok(one.every((row) => row.status === 'ok' && row.reset_counter === '0'));
+    const begin = other.findIndex((row) => row.status === 'ok');
+    assert.ok(begin > clicked, 'nothing was there before');
+    checkChosen(other.slice(begin), Number(other[begin].reset_counter), scene.poses.bottle, scene.poses.box);
+    assert.deepEqual(complaints, []);
+  } finally {
+    rmSync(folder, { recursive: true });
+  }
+});
 
 test('a lost link is said, and comes back by itself after the program was started anew', async () => {
   track = await startTrack([kDemo], { more: kKnown });

@@ -13,9 +13,9 @@ constexpr std::int64_t kPathPeriod_ns = 500'000'000;
 
 }  // namespace
 
-DdsObject::DdsObject(const DdsAddress& address, ObjectChannel& channel, NewsSignal& signal,
-                     DdsClock& clock, posix::RosNode& node, TransformPublisher& transforms,
-                     DdsCounters& counters)
+DdsObject::DdsObject(const DdsAddress& address, const ImageSize& image, bool is_first,
+                     ObjectChannel& channel, NewsSignal& signal, DdsClock& clock,
+                     posix::RosNode& node, TransformPublisher& transforms, DdsCounters& counters)
     : channel_(channel),
       reader_(channel.AddReader(signal)),
       clock_(clock),
@@ -32,12 +32,14 @@ DdsObject::DdsObject(const DdsAddress& address, ObjectChannel& channel, NewsSign
   Require(node.Advertise(prefix + "path", RosQos::kLatched, path_publisher_));
   Require(node.Advertise(prefix + "status", RosQos::kReliable, status_publisher_));
   if (address.may_reset) Require(node.Serve(prefix + "reset", reset_.emplace()));
+  if (address.may_choose) choices_.emplace(address, prefix, is_first, image, channel, node);
 }
 
 void DdsObject::Turn(std::int64_t now_ns) {
   FrameResult result;
   while (reader_.Pop(result)) PublishResult(result);
   ServeReset();
+  if (choices_) choices_->Turn();
   model_.Turn(now_ns, clock_, frames_);
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "dds/dds_choice.h"
 #include "dds/dds_clock.h"
 #include "dds/dds_model.h"
 #include "dds/dds_motion.h"
@@ -19,10 +20,13 @@ class DdsObject {
  public:
   using TransformPublisher = posix::RosPublisher<posix::ros::TFMessage>;
 
+  /// @param image Of the sensor.
+  /// @param is_first Of the run's objects.
   /// @param signal Raised when the object has news.
   /// @throws Failure kOutputFailed.
-  DdsObject(const DdsAddress& address, ObjectChannel& channel, NewsSignal& signal, DdsClock& clock,
-            posix::RosNode& node, TransformPublisher& transforms, DdsCounters& counters);
+  DdsObject(const DdsAddress& address, const ImageSize& image, bool is_first,
+            ObjectChannel& channel, NewsSignal& signal, DdsClock& clock, posix::RosNode& node,
+            TransformPublisher& transforms, DdsCounters& counters);
   DdsObject(const DdsObject&) = delete;
   DdsObject& operator=(const DdsObject&) = delete;
 
@@ -53,8 +57,9 @@ class DdsObject {
   posix::RosPublisher<posix::ros::TwistWithCovarianceStamped> twist_;
   posix::RosPublisher<posix::ros::Path> path_publisher_;
   posix::RosPublisher<posix::ros::DiagnosticArray> status_publisher_;
-  /// Not there unless the address allows it.
+  // Not there unless the address allows it.
   std::optional<posix::RosService<posix::ros::TriggerRequest, posix::ros::TriggerResponse>> reset_;
+  std::optional<DdsChoices> choices_;
   DdsModel model_;
 };
 

@@ -20,8 +20,9 @@ namespace disflow::apps {
 class DdsPublisher {
  public:
   DdsPublisher(const std::string& uri, std::span<ObjectChannel* const> channels,
-               DdsClock::Stamps stamps, SideInputs& inputs, std::shared_ptr<posix::RosNode> node)
-      : uri_(uri), clock_(stamps), node_(std::move(node)) {
+               const hal::SensorInfo& sensor, SideInputs& inputs,
+               std::shared_ptr<posix::RosNode> node)
+      : uri_(uri), clock_(StampsOf(sensor)), node_(std::move(node)) {
     DdsAddress address = ParseDdsAddress(uri);
     if (node_ && node_->options().network.domain == address.domain) {
       address.name = node_->options().name;  // which the sensor's address may have said
@@ -30,8 +31,10 @@ class DdsPublisher {
       RequireLink(node_->Open(NodeOptions(address)));
     }
     RequireLink(node_->Advertise("/tf", posix::RosQos::kReliable, transforms_));
+    const ImageSize image{sensor.width_px, sensor.height_px};
     for (ObjectChannel* const channel : channels) {
-      objects_.emplace_back(address, *channel, signal_, clock_, *node_, transforms_, counters_);
+      objects_.emplace_back(address, image, objects_.empty(), *channel, signal_, clock_, *node_,
+                            transforms_, counters_);
     }
     inputs_.emplace(address, *node_, inputs.pose_mailbox(), inputs.mask_mailbox());
     RequireLink(node_->Announce());
@@ -57,6 +60,11 @@ class DdsPublisher {
   }
 
  private:
+  [[nodiscard]] static DdsClock::Stamps StampsOf(const hal::SensorInfo& sensor) noexcept {
+    if (sensor.has_monotonic_stamps()) return DdsClock::Stamps::kMonotonic;
+    return sensor.epoch_stamps ? DdsClock::Stamps::kRos : DdsClock::Stamps::kSequence;
+  }
+
   static constexpr std::int64_t kPatience_ns = 5'000'000;
   static constexpr std::int64_t kFarewell_ns = 1'000'000'000;
   static constexpr int kTurns = 75;
@@ -104,10 +112,7 @@ DdsOutput::DdsOutput(const std::string& uri, std::span<ObjectChannel* const> obj
                      const hal::SensorInfo& sensor, SideInputs& inputs,
                      std::shared_ptr<posix::RosNode> node) {
   if (uri.empty()) return;
-  const DdsClock::Stamps stamps = sensor.has_monotonic_stamps() ? DdsClock::Stamps::kMonotonic
-                                  : sensor.epoch_stamps         ? DdsClock::Stamps::kRos
-                                                                : DdsClock::Stamps::kSequence;
-  publisher_ = std::make_unique<DdsPublisher>(uri, objects, stamps, inputs, std::move(node));
+  publisher_ = std::make_unique<DdsPublisher>(uri, objects, sensor, inputs, std::move(node));
 }
 
 DdsOutput::~DdsOutput() = default;

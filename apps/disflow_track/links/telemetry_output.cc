@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "links/telemetry_output.h"
 
+#include <utility>
+
 #include "disflow/saturating.h"
+#include "links/choice_command.h"
 #include "program/exit_status.h"
 
 namespace disflow::apps {
@@ -106,6 +109,7 @@ void TelemetryOutput::ReceiveOn(Line& line, std::int64_t capture_now_ns) noexcep
   line.decoder.ForEachFrame(line.reader.Read(*line.link.get()), line.session,
                             [&](const hal::mavlink::FrameView& frame) {
                               line.queries.Take(frame);
+                              line.commands.Take(frame);
                               if (line.camera_pose) line.camera_pose->Take(frame, capture_now_ns);
                             });
   SayRefusals(line);
@@ -132,20 +136,51 @@ void TelemetryOutput::SayRefusals(Line& line) noexcept {
 void TelemetryOutput::Answer(const TrackedObjects& objects,
                              std::span<const FrameResult> results) noexcept {
   for (Line& line : lines_) {
-    for (const hal::mavlink::DisflowQuery& query : line.queries.waiting()) {
-      for (std::size_t i = 0; i < components_.size(); ++i) {
-        const bool is_first = query.target_component == 0 && i == 0;
-        if (!is_first && query.target_component != components_[i].id) continue;
-        const auto answer =
-            hal::mavlink::AnswerQuery(query, results[i].estimate.stamp_ns,
-                                      [&](const Vec3& x_m) { return objects[i]->Query(x_m); });
-        // The buffer holds every message, so encoding cannot fail.
-        const auto size = components_[i].encoder.EncodeMessage(answer, buffer_);
-        SendOn(line, std::span(buffer_).first(size.value));
-      }
-    }
-    line.queries.Clear();
+    AnswerQueries(line, objects, results);
+    ObeyCommands(line, objects);
   }
+}
+
+std::optional<std::size_t> TelemetryOutput::ObjectOf(std::uint8_t target_component) const noexcept {
+  if (target_component == 0) return 0;
+  for (std::size_t i = 0; i < components_.size(); ++i) {
+    if (components_[i].id == target_component) return i;
+  }
+  return std::nullopt;
+}
+
+void TelemetryOutput::AnswerQueries(Line& line, const TrackedObjects& objects,
+                                    std::span<const FrameResult> results) noexcept {
+  for (const hal::mavlink::DisflowQuery& query : line.queries.waiting()) {
+    const std::optional<std::size_t> i = ObjectOf(query.target_component);
+    if (!i) continue;
+    const auto answer =
+        hal::mavlink::AnswerQuery(query, results[*i].estimate.stamp_ns,
+                                  [&](const Vec3& x_m) { return objects[*i]->Query(x_m); });
+    // The buffer holds every message, so encoding cannot fail.
+    const auto size = components_[*i].encoder.EncodeMessage(answer, buffer_);
+    SendOn(line, std::span(buffer_).first(size.value));
+  }
+  line.queries.Clear();
+}
+
+void TelemetryOutput::ObeyCommands(Line& line, const TrackedObjects& objects) noexcept {
+  using hal::mavlink::CommandAck;
+  for (const hal::mavlink::ReceivedCommand& received : line.commands.waiting()) {
+    const std::optional<std::size_t> i = ObjectOf(received.command.target_component);
+    if (!i) continue;
+    std::uint8_t result = CommandAck::kUnsupported;
+    if (IsChoiceCommand(received.command)) {
+      std::optional<ObjectChoice> choice = ChoiceOf(received.command);
+      const bool obeyed = line.link.may_choose() && choice.has_value();
+      if (obeyed) objects[*i]->channel().Choose(std::move(*choice));
+      result = obeyed ? CommandAck::kAccepted : CommandAck::kDenied;
+    }
+    const auto size =
+        components_[*i].encoder.EncodeMessage(hal::mavlink::AnswerTo(received, result), buffer_);
+    SendOn(line, std::span(buffer_).first(size.value));
+  }
+  line.commands.Clear();
 }
 
 void TelemetryOutput::KeepAlive(std::int64_t now_ns) noexcept {

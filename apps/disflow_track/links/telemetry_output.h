@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "disflow/hal/mavlink/camera_pose_input.h"
+#include "disflow/hal/mavlink/command_input.h"
 #include "disflow/hal/mavlink/distance_query_input.h"
 #include "disflow/hal/mavlink/frame_decoder.h"
 #include "disflow/hal/mavlink/telemetry.h"
@@ -45,7 +46,7 @@ class TelemetryOutput {
   /// Takes what has come in, a bounded number of bytes.
   /// @param capture_now_ns Now, on the clock of the depth images' stamps.
   void Receive(std::int64_t capture_now_ns) noexcept;
-  /// Answers the questions of those who listen, a bounded number per frame.
+  /// Answers the questions and obeys the commands of those who listen, a bounded number per frame.
   /// @param objects In the order of Options::objects.
   void Answer(const TrackedObjects& objects, std::span<const FrameResult> results) noexcept;
   /// HEARTBEAT if one is due although no frame comes.
@@ -70,6 +71,7 @@ class TelemetryOutput {
     std::optional<hal::mavlink::CameraPoseInput> camera_pose;
     bool frame_refusal_said = false;
     hal::mavlink::DistanceQueryInput queries;
+    hal::mavlink::CommandInput commands;
   };
 
   /// An object as a MAVLink component.
@@ -81,6 +83,11 @@ class TelemetryOutput {
 
   void SendHeartbeats(std::int64_t now_ns) noexcept;
   void Broadcast(Expected<std::size_t> size) noexcept;
+  /// @return The object that a message is for; a component's 0 means the first.
+  [[nodiscard]] std::optional<std::size_t> ObjectOf(std::uint8_t target_component) const noexcept;
+  void AnswerQueries(Line& line, const TrackedObjects& objects,
+                     std::span<const FrameResult> results) noexcept;
+  void ObeyCommands(Line& line, const TrackedObjects& objects) noexcept;
   void ReceiveOn(Line& line, std::int64_t capture_now_ns) noexcept;
   /// What a person should know of refused messages, once.
   void SayRefusals(Line& line) noexcept;

@@ -52,4 +52,20 @@ ChannelReader& ObjectChannel::AddReader(NewsSignal& signal) {
   return readers_.emplace_back(signal, new_snapshot_());
 }
 
+void ObjectChannel::Choose(ObjectChoice choice) {
+  const std::lock_guard lock(choice_mutex_);
+  std::swap(choice_, choice);
+  chosen_ = true;
+}
+
+bool ObjectChannel::TakeChoice(ObjectChoice& choice) noexcept {
+  if (!chosen_) return false;
+  // Whoever holds it is about to choose something newer, for the next frame.
+  const std::unique_lock lock(choice_mutex_, std::try_to_lock);
+  if (!lock.owns_lock()) return false;
+  chosen_ = false;
+  std::swap(choice_, choice);
+  return true;
+}
+
 }  // namespace disflow::apps

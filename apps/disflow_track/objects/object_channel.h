@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "objects/model_snapshot.h"
+#include "objects/object_choice.h"
 
 /// @file
 /// What a tracked object shows to other threads, and what they ask of it. The tracking thread never
@@ -106,12 +107,18 @@ class ObjectChannel {
   // By any thread.
   /// The object is forgotten before the next frame.
   void RequestReset() noexcept { reset_ = true; }
+  /// The object is forgotten for the chosen one, which the next frame begins if it shows it. Of
+  /// several choices the last one counts.
+  void Choose(ObjectChoice choice);
   /// While paused no frames are taken.
   void SetPaused(bool paused) noexcept { paused_ = paused; }
   [[nodiscard]] bool paused() const noexcept { return paused_; }
 
   // By the tracking thread.
   [[nodiscard]] bool TakeReset() noexcept { return reset_.exchange(false); }
+  /// @return false, and `choice` is unchanged, if nothing was chosen since. What it held before is
+  /// freed by whoever chooses next.
+  [[nodiscard]] bool TakeChoice(ObjectChoice& choice) noexcept;
   /// @param frame Null if it could not be read.
   template <class Limits>
   void Offer(const Tracker<Limits>& tracker, const FrameResult& result, const DepthFrame* frame) {
@@ -127,6 +134,9 @@ class ObjectChannel {
   std::deque<ChannelReader> readers_;
   std::atomic<bool> reset_ = false;
   std::atomic<bool> paused_ = false;
+  std::atomic<bool> chosen_ = false;
+  std::mutex choice_mutex_;
+  ObjectChoice choice_;  ///< Under the mutex.
 };
 
 }  // namespace disflow::apps

@@ -14,6 +14,7 @@ class TrackedObjectOf final : public TrackedObject {
 
  private:
   void DoReset() noexcept override { tracker_.Reset(); }
+  Status DoChoose(const ObjectStart& start) noexcept override { return tracker_.Choose(start); }
 
   void DoTrack(const DepthFrame& frame, StageClock clock, FrameResult& result) noexcept override {
     (void)tracker_.Process(frame, result.estimate, clock);  // the estimate carries it
@@ -45,10 +46,28 @@ class TrackedObjectOf final : public TrackedObject {
 
 void TrackedObject::Track(const DepthFrame& frame, StageClock clock, FrameResult& result) noexcept {
   if (channel_.TakeReset()) DoReset();
+  if (channel_.TakeChoice(choice_)) Begin(frame);
   DepthFrame own = frame;
-  if (!options_.uses_mask) own.mask = {};
-  own.mask.label = options_.label;
+  own.mask = MaskIn(frame);
   DoTrack(own, clock, result);
+  if (result.estimate.status == Status::kOk) awaits_masked_ = false;
+}
+
+void TrackedObject::Begin(const DepthFrame& frame) noexcept {
+  const std::optional<ObjectStart> start = StartIn(frame, choice_);
+  if (!start || DoChoose(*start) != Status::kOk) return;
+  awaits_masked_ = choice_.kind == ObjectChoice::Kind::kMask;
+  masks_ = awaits_masked_ ? ChosenMasks{} : MasksOf(frame, *start, masks_);
+}
+
+MaskView TrackedObject::MaskIn(const DepthFrame& frame) const noexcept {
+  if (awaits_masked_) {
+    return {choice_.mask.data(), choice_.mask_width_px, choice_.mask_height_px,
+            choice_.mask_width_px};
+  }
+  MaskView mask = masks_.used ? frame.mask : MaskView{};
+  mask.label = masks_.label;
+  return mask;
 }
 
 std::unique_ptr<TrackedObject> MakeTrackedObject(ProfileName profile,

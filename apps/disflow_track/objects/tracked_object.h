@@ -20,12 +20,15 @@ class TrackedObject {
   /// @param new_snapshot See ObjectChannel.
   TrackedObject(const ObjectOptions& options,
                 std::function<std::unique_ptr<ModelSnapshot>()> new_snapshot)
-      : options_(options), channel_(options.name, options.index, std::move(new_snapshot)) {}
+      : options_(options),
+        masks_{options.uses_mask, options.label},
+        channel_(options.name, options.index, std::move(new_snapshot)) {}
   TrackedObject(const TrackedObject&) = delete;
   TrackedObject& operator=(const TrackedObject&) = delete;
   virtual ~TrackedObject() = default;
 
-  /// Fills estimate and totals of the result. Forgets the object first if the channel was asked to.
+  /// Fills estimate and totals of the result. Forgets the object first if the channel was asked to,
+  /// or for the one that was chosen. A choice that lies in no image is left aside.
   void Track(const DepthFrame& frame, StageClock clock, FrameResult& result) noexcept;
   /// Shows the frame tracked last to the channel's listeners.
   /// @param frame Null if it could not be read.
@@ -47,7 +50,13 @@ class TrackedObject {
   [[nodiscard]] ObjectChannel& channel() noexcept { return channel_; }
 
  private:
+  /// Begins what was chosen with this frame.
+  void Begin(const DepthFrame& frame) noexcept;
+  /// What shows the object in this frame.
+  [[nodiscard]] MaskView MaskIn(const DepthFrame& frame) const noexcept;
+
   virtual void DoReset() noexcept = 0;
+  [[nodiscard]] virtual Status DoChoose(const ObjectStart& start) noexcept = 0;
   virtual void DoTrack(const DepthFrame& frame, StageClock clock, FrameResult& result) noexcept = 0;
   virtual void DoShow(const FrameResult& result, const DepthFrame* frame) = 0;
   virtual int DoStreamFlow(const Estimate& estimate, FlowSink& sink) const noexcept = 0;
@@ -55,6 +64,9 @@ class TrackedObject {
   virtual void DoExtract(float resolution_m, SurfaceMesh& mesh) = 0;
 
   const ObjectOptions& options_;
+  ChosenMasks masks_;
+  ObjectChoice choice_;         ///< The last one.
+  bool awaits_masked_ = false;  ///< What its mask shows was not seen yet.
   ObjectChannel channel_;
 };
 

@@ -135,6 +135,7 @@ class Reader {
     topic = value;
   }
   void ReadRectified(std::string_view value) { sensor_.rectified = IsYes("rectified", value); }
+  void ReadChoose(std::string_view value) { link_.may_choose = IsYes("choose", value); }
   void ReadReset(std::string_view value) { link_.may_reset = IsYes("reset", value); }
   [[nodiscard]] bool IsYes(const char* key, std::string_view value) const {
     if (value != "yes" && value != "no") {
@@ -168,7 +169,7 @@ class Reader {
     Side side;
     void (Reader::*read)(std::string_view value);
   };
-  static constexpr std::array<Option, 13> kOptions = {{
+  static constexpr std::array<Option, 14> kOptions = {{
       {"domain", Side::kBoth, &Reader::ReadDomain},
       {"name", Side::kBoth, &Reader::ReadName},
       {"interface", Side::kBoth, &Reader::ReadInterface},
@@ -177,6 +178,7 @@ class Reader {
       {"camera", Side::kLink, &Reader::ReadCamera},
       {"world", Side::kLink, &Reader::ReadWorld},
       {"mask", Side::kLink, &Reader::ReadMask},
+      {"choose", Side::kLink, &Reader::ReadChoose},
       {"reset", Side::kLink, &Reader::ReadReset},
       {"depth", Side::kSensor, &Reader::ReadDepth},
       {"info", Side::kSensor, &Reader::ReadInfo},

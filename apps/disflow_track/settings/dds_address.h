@@ -23,7 +23,8 @@ struct DdsAddress : DdsNodeAddress {
   std::string camera_frame = "camera_optical_frame";
   std::string mask_topic;   ///< Empty: no masks.
   std::string world_frame;  ///< Empty: nobody moves the camera.
-  bool may_reset = false;   ///< Whoever is on the network may start the objects anew.
+  bool may_reset = false;   ///< Whoever is on the network may start the objects anew,
+  bool may_choose = false;  ///< and say what they are.
 };
 
 /// What `--sensor dds:KEY=VALUE&…` says; docs/ros2.md.

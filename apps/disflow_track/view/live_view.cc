@@ -17,21 +17,32 @@ constexpr std::int64_t kInterval_ns = 100'000'000;
 /// How much of the past a browser gets that comes later: a minute.
 constexpr std::size_t kLogMessages = 600;
 
+std::vector<std::string> NamesOf(std::span<ObjectChannel* const> channels) {
+  std::vector<std::string> names;
+  for (const ObjectChannel* const channel : channels) names.push_back(channel->name());
+  return names;
+}
+
+posix::WebServerOptions WithMetrics(posix::WebServerOptions options, const RunMetrics& metrics) {
+  options.metrics = [&metrics] { return metrics.Text(); };
+  return options;
+}
+
 }  // namespace
 
 LiveView::LiveView(posix::WebServerOptions options, std::span<const posix::WebAsset> page,
                    std::span<ObjectChannel* const> channels, const std::string& version)
     : board_(1 + ObjectView::kTopics * channels.size(), kLogMessages),
-      server_(std::move(options), page, board_, [this](auto command) { Obey(command); }) {
-  std::vector<std::string> names;
+      metrics_(version, NamesOf(channels)),
+      server_(WithMetrics(std::move(options), metrics_), page, board_,
+              [this](auto command) { Obey(command); }) {
   for (ObjectChannel* const channel : channels) {
     const auto object = static_cast<int>(objects_.size());
     const std::size_t first_topic = 1 + ObjectView::kTopics * objects_.size();
     objects_.push_back(
-        std::make_unique<ObjectView>(*channel, object, first_topic, signal_, board_));
-    names.push_back(channel->name());
+        std::make_unique<ObjectView>(*channel, object, first_topic, signal_, board_, metrics_));
   }
-  board_.Put(0, EncodeText(ViewMessage::kHello, 0, DescribeProgram(version, names)));
+  board_.Put(0, EncodeText(ViewMessage::kHello, 0, DescribeProgram(version, NamesOf(channels))));
 }
 
 LiveView::~LiveView() {
@@ -61,7 +72,8 @@ void LiveView::Work() {
   }
 }
 
-void LiveView::Obey(std::span<const std::uint8_t, posix::WebServer::kCommandBytes> command) {
+void LiveView::Obey(std::span<const std::uint8_t> command) {
+  static_assert(kViewChoiceBytes == posix::WebServer::kLongCommandBytes);
   if (command[1] >= objects_.size()) return;
   const auto wanted = static_cast<ViewCommand>(command[0]);
   switch (wanted) {
@@ -74,6 +86,10 @@ void LiveView::Obey(std::span<const std::uint8_t, posix::WebServer::kCommandByte
       for (const auto& object : objects_) {
         object->channel().SetPaused(wanted == ViewCommand::kPause);
       }
+      return;
+    case ViewCommand::kChoose:
+      if (const std::optional<ObjectChoice> choice = DecodeChoice(command))
+        objects_[command[1]]->channel().Choose(*choice);
       return;
   }
 }

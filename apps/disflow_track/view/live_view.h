@@ -12,6 +12,7 @@
 #include "disflow/posix/view/web_server.h"
 #include "objects/object_channel.h"
 #include "view/object_view.h"
+#include "view/run_metrics.h"
 
 namespace disflow::apps {
 
@@ -34,10 +35,11 @@ class LiveView {
 
  private:
   void Work();
-  void Obey(std::span<const std::uint8_t, posix::WebServer::kCommandBytes> command);
+  void Obey(std::span<const std::uint8_t> command);
 
   NewsSignal signal_;
   posix::MessageBoard board_;
+  RunMetrics metrics_;
   std::vector<std::unique_ptr<ObjectView>> objects_;
   posix::WebServer server_;
   std::atomic<bool> ended_ = false;

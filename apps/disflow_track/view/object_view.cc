@@ -36,7 +36,11 @@ void ObjectView::Update(bool watched, bool ended, std::int64_t now_ns) {
 
 void ObjectView::TakeResults() {
   results_.clear();
-  while (reader_.Pop(newest_)) results_.push_back(newest_);
+  while (reader_.Pop(newest_)) {
+    results_.push_back(newest_);
+    metrics_.Add(static_cast<std::size_t>(object_), newest_);
+  }
+  metrics_.SetLost(static_cast<std::size_t>(object_), reader_.lost());
   if (results_.empty()) return;
   counted_ += static_cast<int>(results_.size());
   board_.Append(EncodeFrames(object_, results_));

@@ -6,6 +6,7 @@
 
 #include "disflow/posix/view/message_board.h"
 #include "objects/object_channel.h"
+#include "view/run_metrics.h"
 #include "view/view_texts.h"
 
 namespace disflow::apps {
@@ -16,13 +17,15 @@ class ObjectView {
   static constexpr std::size_t kTopics = 4;  ///< Status, surface, flow, depth.
 
   /// @param first_topic Of kTopics that are this object's.
+  /// @param metrics Gets every result.
   ObjectView(ObjectChannel& channel, int object, std::size_t first_topic, NewsSignal& signal,
-             posix::MessageBoard& board)
+             posix::MessageBoard& board, RunMetrics& metrics)
       : channel_(channel),
         reader_(channel.AddReader(signal)),
         object_(object),
         first_topic_(first_topic),
-        board_(board) {}
+        board_(board),
+        metrics_(metrics) {}
 
   /// @param watched Somebody looks: pictures are worth their work.
   void Update(bool watched, bool ended, std::int64_t now_ns);
@@ -45,6 +48,7 @@ class ObjectView {
   int object_;
   std::size_t first_topic_;
   posix::MessageBoard& board_;
+  RunMetrics& metrics_;
 
   std::vector<FrameResult> results_;  ///< New ones.
   FrameResult newest_;

@@ -217,4 +217,21 @@ ViewBytes EncodeDepth(int object, const DepthPicture& picture) {
   return bytes;
 }
 
+std::optional<ObjectChoice> DecodeChoice(std::span<const std::uint8_t> command) noexcept {
+  if (command.size() < kViewChoiceBytes) return std::nullopt;
+  const auto share = [command](std::size_t at) {
+    return static_cast<float>(command[at] | command[at + 1] << 8) /
+           static_cast<float>(std::numeric_limits<std::uint16_t>::max());
+  };
+  ObjectChoice choice;
+  choice.u = share(4);
+  choice.v = share(6);
+  choice.reach = share(8);
+  choice.width = share(10);
+  choice.height = share(12);
+  const bool is_box = choice.width > 0.0F && choice.height > 0.0F;
+  choice.kind = is_box ? ObjectChoice::Kind::kBox : ObjectChoice::Kind::kPixel;
+  return choice;
+}
+
 }  // namespace disflow::apps

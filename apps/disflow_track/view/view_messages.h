@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -9,6 +11,7 @@
 
 #include "flow_cloud.h"
 #include "objects/depth_picture.h"
+#include "objects/object_choice.h"
 #include "program/frame_result.h"
 #include "surface_mesh.h"
 
@@ -29,7 +32,10 @@ enum class ViewMessage : std::uint8_t {
 };
 
 /// What a browser asks for; the first byte of its message, the second is the object.
-enum class ViewCommand : std::uint8_t { kReset = 1, kPause = 2, kResume = 3 };
+enum class ViewCommand : std::uint8_t { kReset = 1, kPause = 2, kResume = 3, kChoose = 4 };
+
+/// Of ViewCommand::kChoose.
+inline constexpr std::size_t kViewChoiceBytes = 14;
 
 inline constexpr int kViewFormat = 1;
 /// Of a frame's record.
@@ -43,5 +49,10 @@ inline constexpr std::size_t kShownFlowSamples = 300;
 [[nodiscard]] ViewBytes EncodeSurface(int object, StampNs stamp_ns, const SurfaceMesh& mesh);
 [[nodiscard]] ViewBytes EncodeFlow(int object, StampNs stamp_ns, const FlowCloud& flow);
 [[nodiscard]] ViewBytes EncodeDepth(int object, const DepthPicture& picture);
+
+/// What ViewCommand::kChoose points at: a place or a box in the image.
+/// @return Nothing if the message is too short.
+[[nodiscard]] std::optional<ObjectChoice> DecodeChoice(
+    std::span<const std::uint8_t> command) noexcept;
 
 }  // namespace disflow::apps

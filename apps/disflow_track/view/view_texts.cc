@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "view/counter_names.h"
 #include "view/view_messages.h"
 
 namespace disflow::apps {
@@ -10,34 +11,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json CountersOf(const Counters& totals) {
-  return {{"frames", totals.frames},
-          {"frames refused", totals.frames_rejected},
-          {"frames predicted only", totals.frames_unregistered},
-          {"images repeated", totals.images_repeated},
-          {"pixels out of range", totals.pixels_out_of_range},
-          {"pixel runs dropped", totals.runs_dropped},
-          {"blocks sparse", totals.blocks_sparse},
-          {"blocks grazing", totals.blocks_grazing},
-          {"blocks flying", totals.blocks_flying},
-          {"samples dropped", totals.samples_dropped},
-          {"residuals unmatched", totals.residuals_unmatched},
-          {"residuals truncated", totals.residuals_truncated},
-          {"normals that disagree", totals.residuals_normal_mismatch},
-          {"observations rejected", totals.observations_rejected},
-          {"observations out of bounds", totals.observations_out_of_bounds},
-          {"model samples refused", totals.samples_refused},
-          {"clusters evicted", totals.clusters_evicted},
-          {"edges refused", totals.edges_refused},
-          {"GP candidates dropped", totals.candidates_dropped}};
-}
-
-Json CountersOf(const hal::SensorCounters& sensor) {
-  return {{"delivered", sensor.frames},
-          {"dropped", sensor.dropped},
-          {"corrupt", sensor.corrupt},
-          {"stream restarts", sensor.restarts},
-          {"reconnects", sensor.reconnects}};
+template <class Names, class Counters>
+Json ToJson(const Names& names, const Counters& counters) {
+  Json json = Json::object();
+  for (const auto& name : names) json[name.words] = counters.*name.member;
+  return json;
 }
 
 /// Wrong UTF-8, which a name from a command line may hold, is replaced.
@@ -67,8 +45,8 @@ std::string DescribeStatus(const ViewStatus& status, const FrameResult& result) 
                 {"ended", status.ended},
                 {"frames_per_second", status.frames_per_second},
                 {"not_shown", status.not_shown},
-                {"tracker", CountersOf(result.totals)},
-                {"sensor", CountersOf(result.sensor)}});
+                {"tracker", ToJson(kTrackerCounters, result.totals)},
+                {"sensor", ToJson(kSensorCounters, result.sensor)}});
 }
 
 }  // namespace disflow::apps

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The link to the server: comes back by itself after it was lost.
-import { decode, encodeCommand } from './messages.js';
+import { decode, encodeChoice, encodeCommand } from './messages.js';
 
 const kSilence_ms = 3000; // The server says something twice a second.
 const kLongestWait_ms = 3000;
@@ -16,7 +16,15 @@ export class Connection {
   }
 
   send(name, object) {
-    if (this.socket?.readyState === WebSocket.OPEN) this.socket.send(encodeCommand(name, object));
+    this.#send(encodeCommand(name, object));
+  }
+
+  choose(object, place) {
+    this.#send(encodeChoice(object, place));
+  }
+
+  #send(bytes) {
+    if (this.socket?.readyState === WebSocket.OPEN) this.socket.send(bytes);
   }
 
   #connect() {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+import { pointAt } from './choosing.js';
 import { Connection } from './connection.js';
 import { drawDepth } from './depth_image.js';
 import { showBanner, showCounters, showFrame, showRange } from './panel.js';
@@ -115,7 +116,7 @@ function showLink() {
   document.body.dataset.link = link;
   const open = link === 'open';
   byId('pause').textContent = status?.paused ? 'Resume' : 'Pause';
-  byId('pause').disabled = byId('reset').disabled = !open || Boolean(status?.ended);
+  byId('pause').disabled = byId('reset').disabled = byId('choose').disabled = !open || Boolean(status?.ended);
   if (link === 'refused') {
     showBanner('Link lost: the token is not valid any more. Open the address that disflow_track printed.');
   } else if (!open) {
@@ -129,6 +130,24 @@ function showLink() {
 
 byId('pause').onclick = () => connection.send(objects[chosen]?.status?.paused ? 'resume' : 'pause', chosen);
 byId('reset').onclick = () => connection.send('reset', chosen);
+const pointing = pointAt(byId('depth'), byId('rubber'), {
+  isWanted: () => 'choosing' in document.body.dataset,
+  chosen: (place) => {
+    connection.choose(chosen, place);
+    setChoosing(false);
+  },
+});
+function setChoosing(choosing) {
+  document.body.toggleAttribute('data-choosing', choosing);
+  byId('choose').ariaPressed = String(choosing);
+  byId('choose-hint').hidden = !choosing;
+  if (choosing) byId('depth').scrollIntoView({ block: 'nearest' });
+  else pointing.stop();
+}
+byId('choose').onclick = () => setChoosing(!('choosing' in document.body.dataset));
+addEventListener('keydown', (event) => {
+  if (event.key === 'Escape') setChoosing(false);
+});
 byId('save').onclick = () => {
   const { surface, frames } = objects[chosen];
   const name = names.objects[chosen].replace(/[^\w-]/g, '_');

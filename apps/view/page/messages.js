@@ -2,7 +2,7 @@
 // The server's messages, byte by byte as docs/view.md says.
 
 const Kind = { hello: 1, status: 2, frames: 3, surface: 4, flow: 5, depth: 6 };
-const Command = { reset: 1, pause: 2, resume: 3 };
+const Command = { reset: 1, pause: 2, resume: 3, choose: 4 };
 
 const kFlowUnit = 0.00025; // m and m/s
 const kWord = 65535;
@@ -10,6 +10,19 @@ const kWord = 65535;
 /** The bytes of a request, e.g. encodeCommand('reset', 0). */
 export function encodeCommand(name, object) {
   return new Uint8Array([Command[name], object, 0, 0]);
+}
+
+/**
+ * The bytes of "track this instead".
+ * @param {{u, v, reach, width, height}} place Shares of the picture; without width and height a place, else a box.
+ */
+export function encodeChoice(object, { u, v, reach = 0, width = 0, height = 0 }) {
+  const view = new DataView(new ArrayBuffer(14));
+  view.setUint8(0, Command.choose);
+  view.setUint8(1, object);
+  const share = (value) => Math.round(Math.min(Math.max(value, 0), 1) * kWord);
+  [u, v, reach, width, height].forEach((value, i) => view.setUint16(4 + 2 * i, share(value), true));
+  return new Uint8Array(view.buffer);
 }
 
 /** Gives {kind, object, ...} or null for a kind that this page does not know. */

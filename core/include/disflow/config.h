@@ -10,8 +10,19 @@
 
 namespace disflow {
 
+/// Where in its first image an object is that no mask shows.
+struct ObjectStart {
+  int roi_x_px = 0;
+  int roi_y_px = 0;
+  int roi_width_px = 0;
+  int roi_height_px = 0;
+  int seed_u_px = -1;
+  int seed_v_px = -1;
+  int seed_reach_px = 0;
+};
+
 /// Which pixels are the object.
-struct SegmenterConfig {
+struct SegmenterConfig : ObjectStart {
   float min_range_m = 0.10F;
   float max_range_m = 4.0F;
   float depth_jump_ratio = 0.02F;
@@ -21,12 +32,6 @@ struct SegmenterConfig {
   int mask_tolerance_px = 8;
   float mask_delay_s = 0.067F;
   float lost_margin_m = 0.05F;
-  int roi_x_px = 0;
-  int roi_y_px = 0;
-  int roi_width_px = 0;
-  int roi_height_px = 0;
-  int seed_u_px = -1;
-  int seed_v_px = -1;
   int grow_region = 1;
 };
 

@@ -57,6 +57,8 @@ constexpr void VisitFields(ConfigType& config, Visitor&& visitor) {
         "a pixel on the object in the first frame; -1 = nearest");
   field("segmenter.seed_v_px", seg.seed_v_px, -1, 8191, "px",
         "a pixel on the object in the first frame; -1 = nearest");
+  field("segmenter.seed_reach_px", seg.seed_reach_px, 0, 8192, "px",
+        "surface this near to the seed in the image counts as lying there");
   field("segmenter.grow_region", seg.grow_region, 0, 1, "0/1",
         "without a mask: 1 = one connected surface is the object, 0 = all within range and region "
         "of interest (a room)");

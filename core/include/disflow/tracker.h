@@ -57,6 +57,11 @@ class Tracker {
   /// Forgets the object; the next frame starts a new one and bumps reset_counter.
   void Reset() noexcept;
 
+  /// Forgets the object for another one, which the next frame starts where somebody points, in
+  /// place of what the settings said; so does every start after it.
+  /// @return kInvalidConfig, and nothing changes, if a value is out of its range, see Validate().
+  [[nodiscard]] Status Choose(const ObjectStart& start) noexcept;
+
   [[nodiscard]] const ConfigIssue& config_issue() const noexcept { return config_issue_; }
   /// The reconstructed surface; see also surface_extractor.h.
   [[nodiscard]] const Field& field() const noexcept { return field_; }

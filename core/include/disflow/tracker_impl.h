@@ -101,6 +101,18 @@ void Tracker<Limits>::Reset() noexcept {
 }
 
 template <CapacityProfile Limits>
+Status Tracker<Limits>::Choose(const ObjectStart& start) noexcept {
+  Config chosen = config_;
+  static_cast<ObjectStart&>(chosen.segmenter) = start;
+  const ConfigIssue issue = Validate(chosen);
+  if (issue.field != nullptr) return issue.status();
+  config_ = chosen;
+  config_issue_ = issue;
+  Reset();
+  return Status::kOk;
+}
+
+template <CapacityProfile Limits>
 void Tracker<Limits>::Begin(const DepthFrame& frame, Estimate& estimate) noexcept {
   estimate = Estimate{};
   estimate.stamp_ns = frame.stamp_ns;

@@ -25,6 +25,7 @@ struct disflow_tracker {
   virtual void Fuse(const disflow::DepthFrame& frame, const disflow::PoseObjectFromCamera& T_oc,
                     disflow::Estimate& estimate) noexcept = 0;
   virtual void Reset() noexcept = 0;
+  virtual disflow::Status Choose(const disflow::ObjectStart& start) noexcept = 0;
   /// 255 where the row's pixel showed the object, else 0.
   virtual void WriteMaskRow(int v, std::span<std::uint8_t> row) const noexcept = 0;
   /// @param workspace Large enough.

@@ -110,6 +110,30 @@ void disflow_reset(disflow_tracker* tracker) {
   if (tracker != nullptr) tracker->Reset();
 }
 
+disflow_status disflow_choose_pixel(disflow_tracker* tracker, std::int32_t u_px, std::int32_t v_px,
+                                    std::int32_t reach_px) {
+  if (tracker == nullptr) return DISFLOW_NOT_INITIALISED;
+  if (u_px < 0 || v_px < 0) return DISFLOW_INVALID_CONFIG;
+  disflow::ObjectStart start;
+  start.seed_u_px = u_px;
+  start.seed_v_px = v_px;
+  start.seed_reach_px = reach_px;
+  return Code(tracker->Choose(start));
+}
+
+disflow_status disflow_choose_box(disflow_tracker* tracker, std::int32_t x_px, std::int32_t y_px,
+                                  std::int32_t width_px, std::int32_t height_px) {
+  if (tracker == nullptr) return DISFLOW_NOT_INITIALISED;
+  // 0 would be the whole image.
+  if (width_px <= 0 || height_px <= 0) return DISFLOW_INVALID_CONFIG;
+  disflow::ObjectStart start;
+  start.roi_x_px = x_px;
+  start.roi_y_px = y_px;
+  start.roi_width_px = width_px;
+  start.roi_height_px = height_px;
+  return Code(tracker->Choose(start));
+}
+
 disflow_status disflow_object_mask(const disflow_tracker* tracker, std::uint8_t* mask,
                                    std::int32_t width_px, std::int32_t height_px,
                                    std::ptrdiff_t stride_bytes) {

@@ -26,6 +26,7 @@ class ProfileTracker final : public disflow_tracker {
     (void)tracker_.Fuse(frame, T_oc, estimate);
   }
   void Reset() noexcept override { tracker_.Reset(); }
+  Status Choose(const ObjectStart& start) noexcept override { return tracker_.Choose(start); }
 
   void WriteMaskRow(int v, std::span<std::uint8_t> row) const noexcept override {
     for (int u = 0; std::uint8_t & pixel : row) pixel = tracker_.last_mask().Test(u++, v) ? 255 : 0;

@@ -8,6 +8,7 @@ hal::Fault Link::Configure(std::string_view uri) {
   const hal::Fault fault = hal::ParseLinkAddress(uri, address);
   if (!fault.ok()) return fault;
   key_file_ = address.key_file;
+  may_choose_ = address.may_choose;
   switch (address.kind) {
     case hal::LinkAddress::Kind::kUdp:
       link_.emplace<UdpLink>(address);

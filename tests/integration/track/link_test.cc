@@ -115,6 +115,93 @@ TEST_F(LinkTest, QuestionAboutTheDistance_IsAnsweredOverUdp) {
   EXPECT_TRUE(std::isnan(field.distance[2]));
 }
 
+/// What is answered to a command, and how far off the object is then, by the messages of a run.
+struct Obeyed {
+  int result = -1;  ///< Of the last answer.
+  float z_m = 0.0F;
+  int reset_counter = -1;
+};
+
+/// Gives the command again with every frame until it is answered, and waits until `enough`.
+template <class Enough>
+Obeyed Command(Receiver& receiver, const mavlink::CommandLong& command, Enough&& enough) {
+  Obeyed obeyed;
+  EXPECT_TRUE(Eventually([&] {
+    bool may_ask = false;
+    receiver.Drain([&](const mavlink::FrameView& frame) {
+      mavlink::CommandAck ack;
+      mavlink::Odometry pose;
+      if (mavlink::DecodePayload(frame, ack) == Status::kOk && ack.command == command.command) {
+        EXPECT_EQ(ack.target_system, 9);
+        obeyed.result = ack.result;
+      } else if (frame.message_id == mavlink::Odometry::kId &&
+                 mavlink::DecodePayload(frame, pose) == Status::kOk && pose.quality >= 0) {
+        may_ask = true;
+        obeyed.z_m = pose.x;  // forward
+        obeyed.reset_counter = pose.reset_counter;
+      }
+    });
+    if (may_ask && obeyed.result < 0) receiver.Send(command);
+    return obeyed.result >= 0 && enough(obeyed);
+  }));
+  return obeyed;
+}
+
+mavlink::CommandLong TrackPoint(float u, float v) {
+  mavlink::CommandLong command;
+  command.param = {u, v, 0.03F, 0.0F, 0.0F, 0.0F, 0.0F};
+  command.command = mavlink::CommandLong::kCameraTrackPoint;
+  command.target_system = 190;
+  command.target_component = 25;
+  return command;
+}
+
+mavlink::CommandLong OfNoUse() {
+  mavlink::CommandLong command = TrackPoint(0.5F, 0.5F);
+  command.command = 400;
+  return command;
+}
+
+constexpr const char* kTwoThings = "sim:box+bottle?motion=static&frames=30000&mask=none";
+constexpr float kBottleU = 0.353F;  ///< Where the farther one is, shares of the image.
+constexpr float kBottleV = 0.398F;
+constexpr float kBetween_m = 0.75F;  ///< The nearer one is nearer, the farther one farther.
+
+TEST_F(LinkTest, CommandToTrackAPoint_IsObeyedWhereTheLinkAllowsIt) {
+  Receiver receiver;
+  ChildProcess track(DISFLOW_TRACK,
+                     {"--sensor", kTwoThings, "--rate", "realtime", "--link",
+                      "udp://127.0.0.1:" + receiver.port() + "?choose=yes"},
+                     scratch());
+  const Obeyed before = Command(receiver, OfNoUse(), [](const Obeyed& o) { return o.z_m > 0.0F; });
+  EXPECT_EQ(before.result, mavlink::CommandAck::kUnsupported);
+  EXPECT_LT(before.z_m, kBetween_m);
+  const Obeyed after = Command(receiver, TrackPoint(kBottleU, kBottleV),
+                               [](const Obeyed& o) { return o.z_m > kBetween_m; });
+  EXPECT_EQ(after.result, mavlink::CommandAck::kAccepted);
+  EXPECT_NE(after.reset_counter, before.reset_counter);
+  const Obeyed outside =
+      Command(receiver, TrackPoint(1.5F, 0.5F), [](const Obeyed&) { return true; });
+  EXPECT_EQ(outside.result, mavlink::CommandAck::kDenied);
+  track.Signal(SIGTERM);
+  EXPECT_EQ(track.Wait().exit_status, 0);
+}
+
+TEST_F(LinkTest, CommandToTrackAPoint_IsDeniedOnOtherLinks) {
+  Receiver receiver;
+  ChildProcess track(DISFLOW_TRACK,
+                     {"--sensor", kTwoThings, "--rate", "realtime", "--link",
+                      "udp://127.0.0.1:" + receiver.port()},
+                     scratch());
+  const Obeyed obeyed = Command(receiver, TrackPoint(kBottleU, kBottleV),
+                                [](const Obeyed& o) { return o.z_m > 0.0F; });
+  EXPECT_EQ(obeyed.result, mavlink::CommandAck::kDenied);
+  EXPECT_LT(obeyed.z_m, kBetween_m);
+  EXPECT_EQ(obeyed.reset_counter, 0);
+  track.Signal(SIGTERM);
+  EXPECT_EQ(track.Wait().exit_status, 0);
+}
+
 TEST_F(LinkTest, UdpReceiver_GetsPoseAndStatusOfEveryFrameAndHeartbeats) {
   constexpr int kFrames = 45;  // 1.5 s
   Receiver receiver;

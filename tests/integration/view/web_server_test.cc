@@ -23,6 +23,7 @@ constexpr std::array<std::uint8_t, 4> kContent = {'p', 'a', 'g', 'e'};
 constexpr std::array kPage = {WebAsset{"/", "text/html; charset=utf-8", kContent}};
 constexpr unsigned char kBinary = 0x82;
 constexpr std::string_view kCommand("\x02\x00\x00\x00", 4);
+constexpr std::string_view kLongCommand("\x04\x00\x00\x00 of 14 byte", 14);
 
 class WebServerTest : public testing::Test {
  protected:
@@ -33,8 +34,10 @@ class WebServerTest : public testing::Test {
 
   /// @param patience_s How long the server waits for a request to be whole. Short where a test
   /// waits for its end, and long where a busy machine must not bring it about.
-  void Start(const std::string& token = "", int max_connections = 32, int patience_s = kPatient_s) {
+  void Start(const std::string& token = "", int max_connections = 32, int patience_s = kPatient_s,
+             std::function<std::string()> metrics = {}) {
     WebServerOptions options;
+    options.metrics = std::move(metrics);
     options.token = token;
     options.max_connections = max_connections;
     options.max_viewers = 3;
@@ -244,6 +247,37 @@ TEST_F(WebServerTest, WithoutTheToken_NothingIsServed) {
   }
 }
 
+TEST_F(WebServerTest, Metrics_AreServedWholeToPrograms) {
+  // More than fits into one piece.
+  const std::string text = "# HELP a b\n" + std::string(100'000, 'm') + "\nend\n";
+  Start("correct-horse", 32, kPatient_s, [text] { return text; });
+  EXPECT_EQ(StatusOf(Get(port(), "/metrics")), 401);
+  EXPECT_EQ(StatusOf(Get(port(), "/metrics", "Authorization: Bearer wrong-horse\r\n")), 401);
+  EXPECT_EQ(StatusOf(Get(port(), "/metrics", "Authorization: Basic correct-horse\r\n")), 401);
+  for (int i = 0; i < 3; ++i) {
+    const std::string answer = Get(port(), "/metrics", "Authorization: Bearer correct-horse\r\n");
+    EXPECT_EQ(StatusOf(answer), 200);
+    EXPECT_NE(answer.find("text/plain; version=0.0.4"), std::string::npos);
+    EXPECT_TRUE(answer.ends_with(text));
+  }
+  EXPECT_TRUE(StatusOf(Get(port(), "/", "Authorization: Bearer correct-horse\r\n")) == 200);
+}
+
+TEST_F(WebServerTest, ReaderOfMetricsThatHangsUp_LeavesTheServerServing) {
+  Start("", 32, kPatient_s, [] { return std::string(10'000'000, 'm'); });
+  for (int i = 0; i < 20; ++i) {
+    RawClient client(port());
+    client.Send("GET /metrics HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    EXPECT_EQ(StatusOf(client.ReadUntil("mmmm")), 200);
+  }
+  EXPECT_TRUE(Serves());
+}
+
+TEST_F(WebServerTest, WithoutMetrics_ThereIsNoSuchPage) {
+  Start();
+  EXPECT_EQ(StatusOf(Get(port(), "/metrics")), 404);
+}
+
 TEST_F(WebServerTest, TokenInTheAddress_BecomesACookieThatOpensAll) {
   Start("correct-horse");
   const std::string answer = Get(port(), "/?token=correct-horse");
@@ -263,9 +297,10 @@ TEST_F(WebServerTest, Commands_ReachTheProgram) {
   client.Send(Upgrade(port()));
   ASSERT_EQ(StatusOf(client.ReadUntil("hello")), 101);
   client.Send(Frame(kBinary, kCommand));
+  client.Send(Frame(kBinary, kLongCommand));
   client.Send(Frame(0x89, "ping"));
   EXPECT_NE(client.ReadUntil("ping").find("ping"), std::string::npos);
-  EXPECT_EQ(commands_, 1);
+  EXPECT_EQ(commands_, 2);
 }
 
 TEST_F(WebServerTest, ReservedOpcode_HangsUp) {
@@ -288,6 +323,7 @@ TEST_F(WebServerTest, CommandOfAnotherSize_HangsUp) {
   Start();
   ExpectHangUp(Frame(kBinary, "abc"));
   ExpectHangUp(Frame(kBinary, "abcde"));
+  ExpectHangUp(Frame(kBinary, kLongCommand.substr(1)));
   ExpectHangUp(Frame(kBinary, std::string(100, 'a')));
 }
 TEST_F(WebServerTest, EndlessFrame_HangsUpAtItsFirstBytes) {

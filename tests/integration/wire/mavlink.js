@@ -33,7 +33,8 @@ function classFromDefinition(definition) {
 /** @returns {Promise<{classes, magicNumbers}>} message classes by MAVLink name, CRC_EXTRA by id. */
 async function loadDialect(xmlPath) {
   const {messages} = await generateAll(fs.readFileSync(xmlPath, 'utf8'), {write() {}}, 'disflow');
-  const classes = {HEARTBEAT: minimal.Heartbeat, ODOMETRY: common.Odometry};
+  const classes = {HEARTBEAT: minimal.Heartbeat, ODOMETRY: common.Odometry,
+                   COMMAND_LONG: common.CommandLong, COMMAND_ACK: common.CommandAck};
   const magicNumbers = {...MSG_ID_MAGIC_NUMBER};
   for (const definition of messages) {
     const made = classFromDefinition(definition);

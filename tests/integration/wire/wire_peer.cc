@@ -120,6 +120,8 @@ std::size_t Encode(const json& vector, std::span<std::byte> out) {
   if (name == DisflowTiming::kName) return EncodeFromJson<DisflowTiming>(vector, out);
   if (name == DisflowQuery::kName) return EncodeFromJson<DisflowQuery>(vector, out);
   if (name == DisflowField::kName) return EncodeFromJson<DisflowField>(vector, out);
+  if (name == CommandLong::kName) return EncodeFromJson<CommandLong>(vector, out);
+  if (name == CommandAck::kName) return EncodeFromJson<CommandAck>(vector, out);
   Fail("unknown message " + name);
 }
 
@@ -180,7 +182,8 @@ int Receive(hal::ByteLink& link, SigningSession* session, std::uint32_t count) {
       (void)(PrintIf<Heartbeat>(frame) || PrintIf<Odometry>(frame) ||
              PrintIf<DisflowStatus>(frame) || PrintIf<DisflowReady>(frame) ||
              PrintIf<DisflowTiming>(frame) || PrintIf<DisflowQuery>(frame) ||
-             PrintIf<DisflowField>(frame));
+             PrintIf<DisflowField>(frame) || PrintIf<CommandLong>(frame) ||
+             PrintIf<CommandAck>(frame));
     });
   }
   const DecoderCounters& counters = decoder.counters();

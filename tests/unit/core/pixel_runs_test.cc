@@ -5,6 +5,8 @@
 
 #include <memory>
 #include <set>
+#include <type_traits>
+#include <utility>
 
 #include "depth_scene.h"
 
@@ -102,6 +104,27 @@ TEST(PixelRuns, OutOfMemory_IsCountedAndTheRestIsSound) {
   int last_v = 0;
   surfaces->ForEachRun([&](int, const PixelRun& run) { last_v = run.v; });
   EXPECT_LT(last_v, DepthScene::kHeight_px - 1);
+}
+
+TEST(PixelRuns, WithAReach_TheNearestSurfaceWithinItIsFound) {
+  DepthScene scene(0.0F);
+  scene.Rectangle({20, 20, 60, 50}, 1.0F).Rectangle({90, 60, 120, 100}, 0.7F);
+  const Surfaces<2048> surfaces(scene);
+  const int left = surfaces->ComponentAt(40, 30);
+  const int right = surfaces->ComponentAt(100, 80);
+  ASSERT_NE(left, right);
+  const int none = std::remove_cvref_t<decltype(*surfaces)>::kNoComponent;
+  // Each side of a surface, 6 pixels from it.
+  for (const auto& [u, v] : {std::pair{14, 30}, {65, 30}, {40, 14}, {40, 55}}) {
+    EXPECT_EQ(surfaces->ComponentAt(u, v), none);
+    EXPECT_EQ(surfaces->ComponentAt(u, v, 5), none) << u << ", " << v;
+    EXPECT_EQ(surfaces->ComponentAt(u, v, 6), left) << u << ", " << v;
+  }
+  // A corner is farther off than its row and its column.
+  EXPECT_EQ(surfaces->ComponentAt(63, 53, 5), none);
+  EXPECT_EQ(surfaces->ComponentAt(63, 53, 6), left);
+  EXPECT_EQ(surfaces->ComponentAt(70, 55, 100), left);
+  EXPECT_EQ(surfaces->ComponentAt(80, 55, 100), right);
 }
 
 TEST(PixelRuns, OnlyTheBox_IsRead) {

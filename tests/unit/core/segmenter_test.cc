@@ -119,9 +119,40 @@ TEST_F(FirstFrame, SeedBesideEverything_FindsNothing) {
   EXPECT_EQ(Segment(ObjectOverATable()), Status::kNoValidDepth);
 }
 
+TEST_F(FirstFrame, SeedNearAThing_ChoosesItWithinItsReach) {
+  config_.seed_u_px = kObject.u_max + 9;
+  config_.seed_v_px = 50;
+  config_.seed_reach_px = 9;
+  EXPECT_EQ(Segment(ObjectOverATable()), Status::kNoValidDepth);
+  config_.seed_reach_px = 10;
+  ASSERT_EQ(Segment(ObjectOverATable()), Status::kOk);
+  ExpectExactly(kObject);
+}
+
 TEST_F(FirstFrame, NothingButOnePlane_IsTheObject) {
   EXPECT_EQ(Segment(DepthScene(1.0F)), Status::kOk);
   EXPECT_GT(Share(DepthScene::image()), 0.99);
+}
+
+TEST_F(FirstFrame, RegionWithinTheThing_DoesNotTakeItsFaceForATable) {
+  DepthScene scene = ObjectOverATable();
+  constexpr PixelBox kKnob{74, 44, 86, 56};
+  scene.Rectangle(kKnob, kObject_m - 0.01F);
+  config_.roi_x_px = kObject.u_min + 4;
+  config_.roi_y_px = kObject.v_min + 4;
+  config_.roi_width_px = kObject.width() - 8;
+  config_.roi_height_px = kObject.height() - 8;
+  ASSERT_EQ(Segment(scene), Status::kOk);
+  ExpectExactly({kObject.u_min + 4, kObject.v_min + 4, kObject.u_max - 4, kObject.v_max - 4});
+}
+
+TEST_F(FirstFrame, TableInTheRegion_IsCutOffAsInTheWholeImage) {
+  config_.roi_x_px = 40;
+  config_.roi_y_px = 20;
+  config_.roi_width_px = 80;
+  config_.roi_height_px = 80;
+  ASSERT_EQ(Segment(ObjectOverATable()), Status::kOk);
+  ExpectExactly(kObject);
 }
 
 TEST_F(FirstFrame, WithoutRegionGrowing_AllOfTheRegionIsTheObject) {

@@ -311,6 +311,70 @@ TEST(Tracker, RefusedBeforeTheFirstFrame_NothingIsClaimed) {
   }
 }
 
+/// Two things before a wall, the left one nearer. No two images are the same to the bit.
+const DepthFrame& TwoThings(StampNs stamp_ns) {
+  static DepthScene scene;
+  static DepthFrame frame;
+  const float wall_m = 1.5F + 1e-4F * Seconds(stamp_ns - kStart_ns);
+  scene = DepthScene(wall_m).Rectangle({20, 30, 60, 90}, 0.5F).Rectangle({95, 30, 140, 90}, 0.7F);
+  frame = scene.frame();
+  frame.stamp_ns = stamp_ns;
+  return frame;
+}
+
+TEST(TrackerChoose, OtherThing_IsTrackedFromTheNextFrameOn) {
+  const auto tracker = std::make_unique<MicroTracker>();
+  Estimate estimate;
+  ASSERT_EQ(tracker->Process(TwoThings(Tracking::StampOf(0)), estimate), Status::kOk);
+  EXPECT_NEAR(estimate.T_co.translation().z(), 0.5F, 0.01F);
+  ObjectStart start;
+  start.seed_u_px = 110;
+  start.seed_v_px = 60;
+  ASSERT_EQ(tracker->Choose(start), Status::kOk);
+  EXPECT_TRUE(tracker->field().empty());
+  ASSERT_EQ(tracker->Process(TwoThings(Tracking::StampOf(1)), estimate), Status::kOk);
+  EXPECT_NEAR(estimate.T_co.translation().z(), 0.7F, 0.01F);
+  EXPECT_EQ(estimate.reset_counter, 1);
+  // A start after it takes what was chosen too.
+  tracker->Reset();
+  ASSERT_EQ(tracker->Process(TwoThings(Tracking::StampOf(2)), estimate), Status::kOk);
+  EXPECT_NEAR(estimate.T_co.translation().z(), 0.7F, 0.01F);
+  // A box around the left one.
+  start = {};
+  start.roi_x_px = 10;
+  start.roi_y_px = 20;
+  start.roi_width_px = 60;
+  start.roi_height_px = 90;
+  ASSERT_EQ(tracker->Choose(start), Status::kOk);
+  ASSERT_EQ(tracker->Process(TwoThings(Tracking::StampOf(3)), estimate), Status::kOk);
+  EXPECT_NEAR(estimate.T_co.translation().z(), 0.5F, 0.01F);
+}
+
+TEST(TrackerChoose, PlaceOutOfRange_IsRefusedAndChangesNothing) {
+  const auto tracker = std::make_unique<MicroTracker>();
+  Estimate estimate;
+  ASSERT_EQ(tracker->Process(TwoThings(Tracking::StampOf(0)), estimate), Status::kOk);
+  for (const int wrong : {-2, 8192, std::numeric_limits<int>::max()}) {
+    ObjectStart start;
+    start.seed_u_px = wrong;
+    EXPECT_EQ(tracker->Choose(start), Status::kInvalidConfig);
+  }
+  EXPECT_FALSE(tracker->field().empty());
+  ASSERT_EQ(tracker->Process(TwoThings(Tracking::StampOf(1)), estimate), Status::kOk);
+  EXPECT_EQ(estimate.reset_counter, 0);
+}
+
+TEST(TrackerChoose, NothingAtThePlace_StartsNothingUntilThereIs) {
+  const auto tracker = std::make_unique<MicroTracker>();
+  Estimate estimate;
+  ObjectStart start;
+  start.seed_u_px = 75;
+  start.seed_v_px = 10;
+  ASSERT_EQ(tracker->Choose(start), Status::kOk);
+  EXPECT_EQ(tracker->Process(TwoThings(Tracking::StampOf(0)), estimate), Status::kNoValidDepth);
+  EXPECT_TRUE(tracker->field().empty());
+}
+
 TEST(Tracker, InvalidConfig_RefusesEveryFrame) {
   Config config;
   config.field.cell_size_m = -1.0F;

@@ -54,6 +54,9 @@ TEST(LinkAddress, KeyFile_StandsAloneOrBesideTheOtherOption) {
   }
   EXPECT_EQ(Parsed("serial:///dev/a?key=k&baud=9600").baud, 9600U);
   EXPECT_EQ(Parsed("serial:///dev/a?key=k").baud, LinkAddress::kDefaultBaud);
+  EXPECT_FALSE(Parsed("serial:///dev/a?key=k").may_choose);
+  EXPECT_TRUE(Parsed("serial:///dev/a?key=k&choose=yes").may_choose);
+  EXPECT_TRUE(Parsed("udp://a:1?choose=yes&bind=7").may_choose);
 }
 
 TEST(LinkAddress, LongestNames_Fit) {
@@ -91,6 +94,9 @@ TEST(LinkAddress, BadOne_IsRefusedWithTheReasonAndChangesNothing) {
                              {"udp://a:1?bind=1&bind=2", "?bind=PORT"},
                              {"udp://a:1?key=", "&key=FILE"},
                              {"udp://a:1?key=a&key=b", "&key=FILE"},
+                             {"udp://a:1?choose=no", "&choose=yes"},
+                             {"udp://a:1?choose=yes&choose=yes", "&choose=yes"},
+                             {"serial:///dev/a?choose", "&choose=yes"},
                              {"udp://a:1?bind=1&", "&key=FILE"},
                              {"udp://a:1?&key=a", "&key=FILE"},
                              {"udp://a:1?key=" + std::string(256, 'k'), "&key=FILE"},

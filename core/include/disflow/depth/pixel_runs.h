@@ -73,13 +73,24 @@ class PixelRuns {
     return run(components_[component].first_run);
   }
 
-  /// The remembered component that covers a pixel, or kNoComponent.
-  [[nodiscard]] int ComponentAt(int u, int v) const noexcept {
+  /// The remembered component that covers a pixel or comes nearest to it.
+  /// @return kNoComponent if none comes as near as `reach_px`.
+  [[nodiscard]] int ComponentAt(int u, int v, int reach_px = 0) const noexcept {
+    int nearest = kNoComponent;
+    int least_squared = reach_px * reach_px;
     for (int i = 0; i < count_; ++i) {
       const PixelRun& r = run(i);
-      if (r.v == v && r.u_begin <= u && u < r.u_end) return run(r.parent).pixels;
+      const int component = run(r.parent).pixels;
+      const int du = std::max({0, int{r.u_begin} - u, u - (int{r.u_end} - 1)});
+      const int dv = int{r.v} - v;
+      const int squared = du * du + dv * dv;
+      if (component == kNoComponent || squared > least_squared) continue;
+      // Of runs as near as each other the first.
+      if (squared == least_squared && nearest != kNoComponent) continue;
+      least_squared = squared;
+      nearest = component;
     }
-    return kNoComponent;
+    return nearest;
   }
 
   /// visit(number of the run's component or kNoComponent, run), row by row, from left to right.

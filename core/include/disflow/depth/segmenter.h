@@ -36,6 +36,10 @@ struct SurfaceVote {
 [[nodiscard]] PixelBox RegionOfInterest(const DepthFrame& frame,
                                         const SegmenterConfig& config) noexcept;
 
+/// The region and half of it more on every side: what a table does beyond the region tells it from
+/// a face that ends there, even if the region is drawn too tightly.
+[[nodiscard]] PixelBox Surroundings(const PixelBox& region, const DepthFrame& frame) noexcept;
+
 /// Decides which pixels are the object. The depth image is cut into connected surfaces within reach
 /// of the predicted model (or, before there is a model, within range and region of interest); the
 /// model and the mask, if one is given, say which of them are the object. A given mask is believed
@@ -166,7 +170,7 @@ class Segmenter {
                                 const SegmenterConfig& config) const noexcept {
     const DepthReader depth(frame.depth, config.min_range_m, config.max_range_m);
     if (config.seed_u_px >= 0 && config.seed_v_px >= 0)
-      return surfaces_.ComponentAt(config.seed_u_px, config.seed_v_px);
+      return surfaces_.ComponentAt(config.seed_u_px, config.seed_v_px, config.seed_reach_px);
     int best = Surfaces::kNoComponent;
     float best_score = 0.0F;
     for (int c = 0; c < surfaces_.components(); ++c) {

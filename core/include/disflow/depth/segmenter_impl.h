@@ -43,7 +43,7 @@ void Segmenter<Limits>::BuildSurfaces(const DepthFrame& frame, const SegmenterCo
   } else {
     box_ = RegionOfInterest(frame, config);
     const int fewest_pixels = std::max(64, box_.width() * box_.height() / 2000);
-    planes_.Find(depth, box_, [](int, int, float) { return true; });
+    planes_.Find(depth, Surroundings(box_, frame), [](int, int, float) { return true; });
     surfaces_.Build(depth, box_, config.depth_jump_ratio, fewest_pixels, planes_);
     if (surfaces_.components() == 0) {  // nothing but planes: one of them is the object's own
       planes_.Clear();

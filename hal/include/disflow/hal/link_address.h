@@ -25,10 +25,12 @@ struct LinkAddress {
   std::uint32_t baud = kDefaultBaud;       ///< Serial: bits per second.
   /// File with the key by which messages are signed; empty: they are not.
   char key_file[kMaxKeyFileLength + 1] = {};
+  /// Whoever is at the other end may choose what is tracked.
+  bool may_choose = false;
 };
 
 /// Reads `udp://HOST:PORT[?bind=PORT]` or `serial:///dev/NAME[?baud=RATE]`, both also with
-/// `key=FILE`; options are parted by '&'. IPv6 addresses are written in brackets:
+/// `key=FILE` and `choose=yes`; options are parted by '&'. IPv6 addresses are written in brackets:
 /// `udp://[::1]:14550`.
 /// @param address Unchanged unless the result is ok.
 /// @return kInvalidUri with the part that is wrong and what it should look like.

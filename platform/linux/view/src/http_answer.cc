@@ -118,6 +118,14 @@ bool WriteHeader(lws* wsi, const WebAsset& asset, std::vector<std::uint8_t>& buf
   return header.Finish();
 }
 
+bool WriteTextHeader(lws* wsi, std::size_t bytes, std::vector<std::uint8_t>& buffer) {
+  HeaderWriter header(wsi, buffer);
+  header.Status(HTTP_STATUS_OK);
+  header.Add("content-type:", "text/plain; version=0.0.4; charset=utf-8");
+  header.Length(bytes);
+  return header.Finish();
+}
+
 bool WriteRedirect(lws* wsi, const std::string& cookie, std::vector<std::uint8_t>& buffer) {
   HeaderWriter header(wsi, buffer);
   header.Status(static_cast<int>(Verdict::kRememberToken));

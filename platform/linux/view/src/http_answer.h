@@ -34,6 +34,8 @@ struct Header {
 [[nodiscard]] const lws_protocol_vhost_options* SecurityHeaders();
 
 /// @param buffer Scratch, with LWS_PRE bytes ahead.
+[[nodiscard]] bool WriteTextHeader(lws* wsi, std::size_t bytes, std::vector<std::uint8_t>& buffer);
+/// @param buffer Scratch, with LWS_PRE bytes ahead.
 [[nodiscard]] bool WriteHeader(lws* wsi, const WebAsset& asset, std::vector<std::uint8_t>& buffer);
 /// To the page, which from then on needs no token in its address.
 [[nodiscard]] bool WriteRedirect(lws* wsi, const std::string& cookie,

@@ -49,7 +49,10 @@ Verdict Judge(const Request& request, const AccessRules& rules) {
   if (!request.is_whole || request.host.empty()) return Verdict::kBadRequest;
   if (rules.is_loopback && !NamesLoopback(request.host)) return Verdict::kForbidden;
   if (!IsSameOrigin(request.origin, request.host)) return Verdict::kForbidden;
-  if (rules.token.empty() || SameToken(request.cookie_token, rules.token)) return Verdict::kAllowed;
+  if (rules.token.empty() || SameToken(request.cookie_token, rules.token) ||
+      SameToken(request.bearer_token, rules.token)) {
+    return Verdict::kAllowed;
+  }
   return SameToken(request.query_token, rules.token) ? Verdict::kRememberToken : Verdict::kNoToken;
 }
 

@@ -16,6 +16,7 @@ struct Request {
   std::optional<std::string> origin;  ///< Programs that are no browsers give none.
   std::string cookie_token;
   std::string query_token;
+  std::string bearer_token;  ///< Of programs.
 };
 
 /// Who may have what.

@@ -16,6 +16,7 @@ constexpr unsigned kOwnDescriptors = 8;
 constexpr int kDownload_s = 30;
 constexpr int kCommandsPerSecond = 20;
 constexpr lws_usec_t kSecond_us = 1'000'000;
+constexpr std::string_view kMetricsPath = "/metrics";
 
 }  // namespace
 
@@ -119,6 +120,9 @@ int WebService::Handle(lws* wsi, lws_callback_reasons reason, void* user, void* 
                            {static_cast<const char*>(in), size});
     case LWS_CALLBACK_HTTP_WRITEABLE:
       return ContinueDownload(wsi, *static_cast<Download*>(user));
+    case LWS_CALLBACK_CLOSED_HTTP:
+      if (user != nullptr) delete std::exchange(static_cast<Download*>(user)->text, nullptr);
+      return 0;
     case LWS_CALLBACK_HTTP_CONFIRM_UPGRADE:
       return AnswerUpgrade(wsi);
     case LWS_CALLBACK_ESTABLISHED:
@@ -154,6 +158,11 @@ Request WebService::Read(lws* wsi) const {
   if (origin.is_given) request.origin = std::move(origin.value);
   request.cookie_token = CookieOf(wsi, cookie_name_);
   request.query_token = QueryOf(wsi, "token=");
+  const Header authorization = HeaderOf(wsi, WSI_TOKEN_HTTP_AUTHORIZATION);
+  request.is_whole = request.is_whole && authorization.is_whole;
+  constexpr std::string_view kScheme = "Bearer ";
+  if (authorization.value.starts_with(kScheme))
+    request.bearer_token = authorization.value.substr(kScheme.size());
   return request;
 }
 
@@ -161,18 +170,32 @@ int WebService::AnswerRequest(lws* wsi, Download& download, std::string_view pat
   const Verdict verdict = Judge(Read(wsi), {options_.token, options_.address.is_loopback});
   if (verdict == Verdict::kRememberToken) return RedirectWithCookie(wsi);
   if (verdict != Verdict::kAllowed) return Refuse(wsi, verdict);
+  if (path == kMetricsPath && options_.metrics) {
+    delete std::exchange(download.text, new std::string(options_.metrics()));
+    download.asset = nullptr;
+    download.sent = 0;
+    return BeginDownload(wsi, WriteTextHeader(wsi, download.text->size(), buffer_));
+  }
   const auto asset = std::find_if(assets_.begin(), assets_.end(),
                                   [path](const WebAsset& item) { return item.path == path; });
   if (asset == assets_.end()) return Refuse(wsi, Verdict::kNotFound);
-  download = {&*asset, 0};
-  if (!WriteHeader(wsi, *asset, buffer_)) return -1;
+  download = {&*asset, nullptr, 0};
+  return BeginDownload(wsi, WriteHeader(wsi, *asset, buffer_));
+}
+
+int WebService::BeginDownload(lws* wsi, bool header_is_written) {
+  if (!header_is_written) return -1;
   lws_set_timeout(wsi, PENDING_TIMEOUT_HTTP_CONTENT, kDownload_s);
   return lws_callback_on_writable(wsi) < 0 ? -1 : 0;
 }
 
 int WebService::ContinueDownload(lws* wsi, Download& download) {
-  if (download.asset == nullptr) return -1;
-  const auto left = download.asset->gzip.subspan(download.sent);
+  if (download.asset == nullptr && download.text == nullptr) return -1;
+  const auto whole = download.asset != nullptr
+                         ? download.asset->gzip
+                         : std::span(reinterpret_cast<const std::uint8_t*>(download.text->data()),
+                                     download.text->size());
+  const auto left = whole.subspan(download.sent);
   const auto chunk = left.first(std::min(left.size(), kChunkBytes));
   std::memcpy(buffer_.data() + LWS_PRE, chunk.data(), chunk.size());
   download.sent += chunk.size();
@@ -183,6 +206,7 @@ int WebService::ContinueDownload(lws* wsi, Download& download) {
   }
   if (!is_last) return lws_callback_on_writable(wsi) < 0 ? -1 : 0;
   download.asset = nullptr;
+  delete std::exchange(download.text, nullptr);
   return lws_http_transaction_completed(wsi) != 0 ? -1 : 0;
 }
 
@@ -234,12 +258,14 @@ int WebService::TakeCommand(lws* wsi, Viewer& viewer, std::span<const std::uint8
     viewer.commands = 0;
   }
   const bool is_whole = lws_is_first_fragment(wsi) != 0 && lws_is_final_fragment(wsi) != 0;
-  if (!is_whole || lws_frame_is_binary(wsi) == 0 || bytes.size() != WebServer::kCommandBytes ||
+  const bool is_command =
+      bytes.size() == WebServer::kCommandBytes || bytes.size() == WebServer::kLongCommandBytes;
+  if (!is_whole || lws_frame_is_binary(wsi) == 0 || !is_command ||
       ++viewer.commands > kCommandsPerSecond) {
     lws_close_reason(wsi, LWS_CLOSE_STATUS_POLICY_VIOLATION, nullptr, 0);
     return -1;
   }
-  on_command_(bytes.first<WebServer::kCommandBytes>());
+  on_command_(bytes);
   return 0;
 }
 

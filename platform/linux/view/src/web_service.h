@@ -38,6 +38,7 @@ class WebService {
   /// Of an HTTP connection; libwebsockets zeroes it.
   struct Download {
     const WebAsset* asset;
+    std::string* text;  ///< In place of an asset; owned.
     std::size_t sent;
   };
   struct Viewer;
@@ -51,6 +52,7 @@ class WebService {
 
   [[nodiscard]] Request Read(lws* wsi) const;
   [[nodiscard]] int AnswerRequest(lws* wsi, Download& download, std::string_view path);
+  [[nodiscard]] int BeginDownload(lws* wsi, bool header_is_written);
   [[nodiscard]] int ContinueDownload(lws* wsi, Download& download);
   [[nodiscard]] int AnswerUpgrade(lws* wsi);
   [[nodiscard]] int RedirectWithCookie(lws* wsi);

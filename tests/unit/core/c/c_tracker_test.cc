@@ -229,5 +229,35 @@ TEST(CTracker, Version_IsTheProjects) {
   EXPECT_STREQ(DISFLOW_VERSION_TEXT, DISFLOW_PROJECT_VERSION);
 }
 
+TEST(CTracker, ChosenPlace_IsWhereTheNextObjectStarts) {
+  TrackerInC tracker;
+  disflow_estimate estimate;
+  auto depth_of_next_m = [&, frame = 0]() mutable {
+    // No two images are the same to the bit.
+    DepthScene scene(1.5F + 1e-5F * static_cast<float>(frame));
+    scene.Rectangle({20, 30, 60, 90}, 0.5F).Rectangle({95, 30, 140, 90}, 0.7F);
+    DepthFrame image = scene.frame();
+    image.stamp_ns = StampOf(frame++);
+    const disflow_frame c = InC(image);
+    EXPECT_EQ(disflow_process(tracker.get(), &c, &estimate), DISFLOW_OK);
+    return estimate.T_co.position_m[2];
+  };
+  EXPECT_NEAR(depth_of_next_m(), 0.5F, 0.01F);
+  ASSERT_EQ(disflow_choose_pixel(tracker.get(), 145, 60, 6), DISFLOW_OK);
+  EXPECT_NEAR(depth_of_next_m(), 0.7F, 0.01F);
+  ASSERT_EQ(disflow_choose_box(tracker.get(), 10, 20, 60, 90), DISFLOW_OK);
+  EXPECT_NEAR(depth_of_next_m(), 0.5F, 0.01F);
+  EXPECT_EQ(estimate.reset_counter, 2);
+  for (const int wrong : {-1, 8192}) {
+    EXPECT_EQ(disflow_choose_pixel(tracker.get(), wrong, 5, 0), DISFLOW_INVALID_CONFIG);
+    EXPECT_EQ(disflow_choose_pixel(tracker.get(), 5, 5, 2 * wrong), DISFLOW_INVALID_CONFIG);
+    EXPECT_EQ(disflow_choose_box(tracker.get(), 0, 0, 10, 2 * wrong), DISFLOW_INVALID_CONFIG);
+  }
+  EXPECT_EQ(disflow_choose_pixel(nullptr, 5, 5, 0), DISFLOW_NOT_INITIALISED);
+  EXPECT_EQ(disflow_choose_box(nullptr, 0, 0, 10, 10), DISFLOW_NOT_INITIALISED);
+  EXPECT_NEAR(depth_of_next_m(), 0.5F, 0.01F);
+  EXPECT_EQ(estimate.reset_counter, 2) << "what is refused changes nothing";
+}
+
 }  // namespace
 }  // namespace disflow::testing

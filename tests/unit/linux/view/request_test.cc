@@ -27,6 +27,17 @@ TEST(RequestTest, NoOriginAtAll_IsAllowed) {
   EXPECT_EQ(Judge(request, kRules), Verdict::kAllowed);
 }
 
+TEST(RequestTest, ProgramWithTheTokenInItsHeader_IsAllowed) {
+  Request request = OwnPage();
+  request.origin.reset();
+  request.cookie_token.clear();
+  EXPECT_EQ(Judge(request, kRules), Verdict::kNoToken);
+  request.bearer_token = kRules.token;
+  EXPECT_EQ(Judge(request, kRules), Verdict::kAllowed);
+  request.bearer_token += "x";
+  EXPECT_EQ(Judge(request, kRules), Verdict::kNoToken);
+}
+
 TEST(RequestTest, OriginOfNothing_IsNotNoOrigin) {
   Request request = OwnPage();
   request.origin = "";

@@ -166,5 +166,25 @@ TEST(ViewTexts, NamesThatAreNoUtf8_StayJson) {
   EXPECT_EQ(text.find('\xff'), std::string::npos);
 }
 
+TEST(ViewMessages, Choice_IsAPlaceOrABoxInSharesOfThePicture) {
+  // What, object, nothing, then five shares.
+  std::vector<std::uint8_t> command = {4, 1, 0, 0, 0x00, 0x80, 0xFF, 0xFF, 0x66, 0x06, 0, 0, 0, 0};
+  auto choice = DecodeChoice(command);
+  ASSERT_TRUE(choice.has_value());
+  EXPECT_EQ(choice->kind, ObjectChoice::Kind::kPixel);
+  EXPECT_NEAR(choice->u, 0.5F, 1e-5F);
+  EXPECT_EQ(choice->v, 1.0F);
+  EXPECT_NEAR(choice->reach, 0.025F, 1e-5F);
+  command[11] = 0x40;
+  command[13] = 0x20;
+  choice = DecodeChoice(command);
+  ASSERT_TRUE(choice.has_value());
+  EXPECT_EQ(choice->kind, ObjectChoice::Kind::kBox);
+  EXPECT_NEAR(choice->width, 0.25F, 1e-5F);
+  EXPECT_NEAR(choice->height, 0.125F, 1e-5F);
+  command.pop_back();
+  EXPECT_FALSE(DecodeChoice(command).has_value());
+}
+
 }  // namespace
 }  // namespace disflow::apps

@@ -23,6 +23,8 @@ template <class T>
     return "float";
   } else if constexpr (std::same_as<T, std::int8_t>) {
     return "int8_t";
+  } else if constexpr (std::same_as<T, std::int32_t>) {
+    return "int32_t";
   } else if constexpr (std::same_as<T, std::uint8_t>) {
     return "uint8_t";
   } else if constexpr (std::same_as<T, std::uint16_t>) {
@@ -100,10 +102,12 @@ inline constexpr bool kIsIn<Message, MessageList<Messages...>> = (std::same_as<M
 template <class Message>
 concept KnownMessage = kIsIn<Message, KnownMessages>;
 
-// The published figures of the two standard messages prove the rule; the private ones' stand in
+// The published figures of the standard messages prove the rule; the private ones' stand in
 // docs/wire-format.md and must never change.
 static_assert(PayloadSize<Heartbeat>() == 9 && CrcExtra<Heartbeat>() == 50);
 static_assert(PayloadSize<Odometry>() == 233 && CrcExtra<Odometry>() == 91);
+static_assert(PayloadSize<CommandLong>() == 33 && CrcExtra<CommandLong>() == 152);
+static_assert(PayloadSize<CommandAck>() == 10 && CrcExtra<CommandAck>() == 143);
 static_assert(PayloadSize<DisflowStatus>() == 76 && CrcExtra<DisflowStatus>() == 237);
 static_assert(PayloadSize<DisflowReady>() == 28 && CrcExtra<DisflowReady>() == 194);
 static_assert(PayloadSize<DisflowTiming>() == 76 && CrcExtra<DisflowTiming>() == 7);

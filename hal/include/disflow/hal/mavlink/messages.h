@@ -283,12 +283,71 @@ struct DisflowField {
   }
 };
 
+/// COMMAND_LONG (#76).
+struct CommandLong {
+  static constexpr std::uint32_t kId = 76;
+  static constexpr std::string_view kName = "COMMAND_LONG";
+
+  static constexpr std::uint16_t kCameraTrackPoint = 2004;  ///< x, y, radius; 0 to 1.
+  static constexpr std::uint16_t kCameraTrackRectangle =
+      2005;  ///< Left, top, right, bottom; 0 to 1.
+
+  std::array<float, 7> param{};
+  std::uint16_t command = 0;  ///< MAV_CMD
+  std::uint8_t target_system = 0;
+  std::uint8_t target_component = 0;
+  std::uint8_t confirmation = 0;
+
+  template <class Self, class Visitor>
+  static constexpr void VisitFields(Self& message, Visitor& field) {
+    field("param1", message.param[0]);
+    field("param2", message.param[1]);
+    field("param3", message.param[2]);
+    field("param4", message.param[3]);
+    field("param5", message.param[4]);
+    field("param6", message.param[5]);
+    field("param7", message.param[6]);
+    field("command", message.command);
+    field("target_system", message.target_system);
+    field("target_component", message.target_component);
+    field("confirmation", message.confirmation);
+  }
+};
+
+/// COMMAND_ACK (#77).
+struct CommandAck {
+  static constexpr std::uint32_t kId = 77;
+  static constexpr std::string_view kName = "COMMAND_ACK";
+
+  static constexpr std::uint8_t kAccepted = 0;
+  static constexpr std::uint8_t kDenied = 2;  ///< Known, but not allowed or without sense.
+  static constexpr std::uint8_t kUnsupported = 3;
+  static constexpr std::uint8_t kNoProgress = 255;
+
+  std::uint16_t command = 0;  ///< MAV_CMD
+  std::uint8_t result = kAccepted;
+  std::uint8_t progress = kNoProgress;
+  std::int32_t result_param2 = 0;
+  std::uint8_t target_system = 0;
+  std::uint8_t target_component = 0;
+
+  template <class Self, class Visitor>
+  static constexpr void VisitFields(Self& message, Visitor& field) {
+    field("command", message.command);
+    field("result", message.result);
+    field("progress", message.progress, FieldKind::kExtension);
+    field("result_param2", message.result_param2, FieldKind::kExtension);
+    field("target_system", message.target_system, FieldKind::kExtension);
+    field("target_component", message.target_component, FieldKind::kExtension);
+  }
+};
+
 template <class... Messages>
 struct MessageList {};
 
 /// Every message that there is: no other is recognised by FrameDecoder or taken by EncodeFrame()
 /// and DecodePayload(), so that one that is left out here does not compile.
 using KnownMessages = MessageList<Heartbeat, Odometry, DisflowStatus, DisflowReady, DisflowTiming,
-                                  DisflowQuery, DisflowField>;
+                                  DisflowQuery, DisflowField, CommandLong, CommandAck>;
 
 }  // namespace disflow::hal::mavlink

@@ -29,9 +29,13 @@ class Link {
   /// the messages has to see to it.
   [[nodiscard]] const std::string& key_file() const noexcept { return key_file_; }
 
+  /// See hal::LinkAddress.
+  [[nodiscard]] bool may_choose() const noexcept { return may_choose_; }
+
  private:
   std::variant<std::monostate, UdpLink, SerialLink> link_;
   std::string key_file_;
+  bool may_choose_ = false;
 };
 
 }  // namespace disflow::posix

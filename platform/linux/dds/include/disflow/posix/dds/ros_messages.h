@@ -18,6 +18,7 @@ namespace ros {
 using Header = std_msgs_msg_dds__Header_;
 using Time = builtin_interfaces_msg_dds__Time_;
 using Point = geometry_msgs_msg_dds__Point_;
+using PointStamped = geometry_msgs_msg_dds__PointStamped_;
 using Vector3 = geometry_msgs_msg_dds__Vector3_;
 using Quaternion = geometry_msgs_msg_dds__Quaternion_;
 using Pose = geometry_msgs_msg_dds__Pose_;
@@ -40,6 +41,8 @@ using ColorRGBA = std_msgs_msg_dds__ColorRGBA_;
 using Marker = visualization_msgs_msg_dds__Marker_;
 using TriggerRequest = std_srvs_srv_dds__Trigger_Request_;
 using TriggerResponse = std_srvs_srv_dds__Trigger_Response_;
+using ChooseRequest = disflow_msgs_srv_dds__ChooseObject_Request_;
+using ChooseResponse = disflow_msgs_srv_dds__ChooseObject_Response_;
 using QueryRequest = disflow_msgs_srv_dds__QueryDistanceField_Request_;
 using QueryResponse = disflow_msgs_srv_dds__QueryDistanceField_Response_;
 }  // namespace ros
@@ -62,6 +65,9 @@ template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::CameraInfo>()
 template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::Marker>() noexcept { return visualization_msgs_msg_dds__Marker__desc; }
 template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::TriggerRequest>() noexcept { return std_srvs_srv_dds__Trigger_Request__desc; }
 template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::TriggerResponse>() noexcept { return std_srvs_srv_dds__Trigger_Response__desc; }
+template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::PointStamped>() noexcept { return geometry_msgs_msg_dds__PointStamped__desc; }
+template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::ChooseRequest>() noexcept { return disflow_msgs_srv_dds__ChooseObject_Request__desc; }
+template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::ChooseResponse>() noexcept { return disflow_msgs_srv_dds__ChooseObject_Response__desc; }
 template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::QueryRequest>() noexcept { return disflow_msgs_srv_dds__QueryDistanceField_Request__desc; }
 template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::QueryResponse>() noexcept { return disflow_msgs_srv_dds__QueryDistanceField_Response__desc; }
 // clang-format on

@@ -31,6 +31,9 @@ struct WebServerOptions {
   int connection_timeout_s = 60;
   int ping_after_s = 5;      ///< A viewer that has been silent for this long is pinged,
   int hang_up_after_s = 15;  ///< and for this long is hung up on.
+  /// What is answered to GET /metrics, in Prometheus' text format; empty: there is no such page.
+  /// Called by the server's thread.
+  std::function<std::string()> metrics;
 };
 
 /// Serves a page that is held in memory, and gives every browser that has it open the messages of a
@@ -42,11 +45,12 @@ class WebServer {
   /// Name of the WebSocket protocol; it is offered at kSocketPath.
   static constexpr const char* kProtocol = "disflow.v1";
   static constexpr const char* kSocketPath = "/live";
-  /// A message from a browser has exactly this many bytes.
+  /// A message from a browser has one of these numbers of bytes.
   static constexpr std::size_t kCommandBytes = 4;
+  static constexpr std::size_t kLongCommandBytes = 14;
 
   /// Called by the server's thread.
-  using CommandHandler = std::function<void(std::span<const std::uint8_t, kCommandBytes>)>;
+  using CommandHandler = std::function<void(std::span<const std::uint8_t>)>;
 
   /// @param assets, board Outlive the server.
   WebServer(WebServerOptions options, std::span<const WebAsset> assets, const MessageBoard& board,
