@@ -167,21 +167,7 @@ class Segmenter {
 
   /// Before a model exists and without a mask: what lies under the seed pixel, or the nearest.
   [[nodiscard]] int ChooseFirst(const DepthFrame& frame,
-                                const SegmenterConfig& config) const noexcept {
-    const DepthReader depth(frame.depth, config.min_range_m, config.max_range_m);
-    if (config.seed_u_px >= 0 && config.seed_v_px >= 0)
-      return surfaces_.ComponentAt(config.seed_u_px, config.seed_v_px, config.seed_reach_px);
-    int best = Surfaces::kNoComponent;
-    float best_score = 0.0F;
-    for (int c = 0; c < surfaces_.components(); ++c) {
-      const PixelRun& first = surfaces_.first_run(c);
-      const float score = 1.0F / std::max(depth.At(first.u_begin, first.v), 1e-3F);
-      if (score <= best_score) continue;
-      best_score = score;
-      best = c;
-    }
-    return best;
-  }
+                                const SegmenterConfig& config) const noexcept;
 
   /// Asks the model about every few points of a run.
   template <class Explains>

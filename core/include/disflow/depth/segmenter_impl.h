@@ -54,6 +54,24 @@ void Segmenter<Limits>::BuildSurfaces(const DepthFrame& frame, const SegmenterCo
 }
 
 template <class Limits>
+int Segmenter<Limits>::ChooseFirst(const DepthFrame& frame,
+                                   const SegmenterConfig& config) const noexcept {
+  const DepthReader depth(frame.depth, config.min_range_m, config.max_range_m);
+  if (config.seed_u_px >= 0 && config.seed_v_px >= 0)
+    return surfaces_.ComponentAt(config.seed_u_px, config.seed_v_px, config.seed_reach_px);
+  int best = Surfaces::kNoComponent;
+  float best_score = 0.0F;
+  for (int c = 0; c < surfaces_.components(); ++c) {
+    const PixelRun& first = surfaces_.first_run(c);
+    const float score = 1.0F / std::max(depth.At(first.u_begin, first.v), 1e-3F);
+    if (score <= best_score) continue;
+    best_score = score;
+    best = c;
+  }
+  return best;
+}
+
+template <class Limits>
 bool Segmenter<Limits>::IsExact(Mask& mask) noexcept {
   int covered = 0;
   int outside = 0;
