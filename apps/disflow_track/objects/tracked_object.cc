@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "objects/tracked_object.h"
 
+#include <utility>
+
 #include "disflow/tracker.h"
 
 namespace disflow::apps {
@@ -46,7 +48,7 @@ class TrackedObjectOf final : public TrackedObject {
 
 void TrackedObject::Track(const DepthFrame& frame, StageClock clock, FrameResult& result) noexcept {
   if (channel_.TakeReset()) DoReset();
-  if (channel_.TakeChoice(choice_)) Begin(frame);
+  if (channel_.TakeChoice(offered_)) Begin(frame);
   DepthFrame own = frame;
   own.mask = MaskIn(frame);
   DoTrack(own, clock, result);
@@ -54,8 +56,9 @@ void TrackedObject::Track(const DepthFrame& frame, StageClock clock, FrameResult
 }
 
 void TrackedObject::Begin(const DepthFrame& frame) noexcept {
-  const std::optional<ObjectStart> start = StartIn(frame, choice_);
+  const std::optional<ObjectStart> start = StartIn(frame, offered_);
   if (!start || DoChoose(*start) != Status::kOk) return;
+  std::swap(choice_, offered_);
   awaits_masked_ = choice_.kind == ObjectChoice::Kind::kMask;
   masks_ = awaits_masked_ ? ChosenMasks{} : MasksOf(frame, *start, masks_);
 }

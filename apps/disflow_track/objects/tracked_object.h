@@ -65,7 +65,8 @@ class TrackedObject {
 
   const ObjectOptions& options_;
   ChosenMasks masks_;
-  ObjectChoice choice_;         ///< The last one.
+  ObjectChoice offered_;        ///< May lie in no image.
+  ObjectChoice choice_;         ///< The last one that did.
   bool awaits_masked_ = false;  ///< What its mask shows was not seen yet.
   ObjectChannel channel_;
 };

@@ -110,6 +110,12 @@ TEST_F(TrackedObjectTest, MaskThatIsChosen_HoldsUntilWhatItShowsWasSeen) {
   depth_m_.assign(kPixels, 0.0F);
   object().channel().Choose(choice);
   EXPECT_EQ(TrackNext(), 0.0F);
+  // What lies in no image does not take its place meanwhile.
+  ObjectChoice wrong = choice;
+  wrong.mask.pop_back();
+  object().channel().Choose(wrong);
+  EXPECT_EQ(TrackNext(), 0.0F);
+  EXPECT_NE(result_.estimate.status, Status::kMaskSizeMismatch);
   depth_m_ = depth_m;
   EXPECT_NEAR(TrackNext(), kRight_m, 0.01F);
   // The mask is no guide any more: the thing may leave its place in it.
