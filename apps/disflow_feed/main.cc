@@ -132,7 +132,7 @@ int Run(const Arguments& arguments) {
   posix::Link link;
   const Fault fault = link.Configure(arguments.link);
   if (!fault.ok()) return Fail(fault, kWrongUsage);
-  if (!link.key_file().empty()) {
+  if (link.address().key_file[0] != '\0') {
     return Fail(hal::MakeFault(Status::kUnsupported,
                                "link '%s': disflow_firmware does not sign; leave out key=FILE",
                                arguments.link.c_str()),

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cstring>
 #include <system_error>
+#include <utility>
 
 namespace disflow::hal {
 namespace {
@@ -69,20 +70,49 @@ void SplitQuery(std::string_view text, std::string_view& rest, std::string_view&
          ParseNumber(After(option, name.size()), max, value);
 }
 
-/// Options parted by '&': a number by the name that this kind of link has for it, key=FILE and
-/// choose=yes.
-/// @return false for anything else, and for one that is given twice.
-[[nodiscard]] bool ParseOptions(std::string_view query, std::string_view name, std::uint32_t max,
-                                std::uint32_t& value, LinkAddress& address) noexcept {
+/// Takes `name`=one of the choices, once.
+template <class Value, std::size_t kCount>
+[[nodiscard]] bool ParseChoice(std::string_view option, std::string_view name,
+                               const std::pair<std::string_view, Value> (&choices)[kCount],
+                               Value& value) noexcept {
+  if (!option.starts_with(name) || value != Value{}) return false;
+  for (const auto& [text, choice] : choices) {
+    if (After(option, name.size()) != text) continue;
+    value = choice;
+    return true;
+  }
+  return false;
+}
+
+/// An option that every kind of link has.
+[[nodiscard]] bool ParseCommonOption(std::string_view option, LinkAddress& address) noexcept {
+  using Stamps = LinkAddress::Stamps;
+  using Pose = LinkAddress::Pose;
   constexpr std::string_view kKey = "key=";
+  constexpr std::pair<std::string_view, Stamps> kStamps[] = {{"monotonic", Stamps::kMonotonic},
+                                                             {"epoch", Stamps::kEpoch},
+                                                             {"autopilot", Stamps::kAutopilot}};
+  constexpr std::pair<std::string_view, Pose> kPoses[] = {{"landing_target", Pose::kLandingTarget},
+                                                          {"follow_target", Pose::kFollowTarget}};
+  constexpr std::pair<std::string_view, bool> kYes[] = {{"yes", true}};
+  if (option.starts_with(kKey) && address.key_file[0] == '\0') {
+    return CopyText(After(option, kKey.size()), address.key_file);
+  }
+  return ParseChoice(option, "choose=", kYes, address.may_choose) ||
+         ParseChoice(option, "stamps=", kStamps, address.stamps) ||
+         ParseChoice(option, "send=", kPoses, address.pose);
+}
+
+/// Options parted by '&'.
+/// @param is_own Takes an option that only this kind of link has.
+/// @return false for anything else, and for one that is given twice.
+template <class IsOwn>
+[[nodiscard]] bool ParseOptions(std::string_view query, LinkAddress& address,
+                                IsOwn&& is_own) noexcept {
   while (!query.empty()) {
     const std::size_t end = query.find('&');
     const std::string_view option = Before(query, end);
-    const bool is_choice = option == "choose=yes" && !address.may_choose;
-    address.may_choose = address.may_choose || is_choice;
-    const bool is_key = option.starts_with(kKey) && address.key_file[0] == '\0' &&
-                        CopyText(After(option, kKey.size()), address.key_file);
-    if (!is_key && !is_choice && !ParseOption(option, name, max, value)) return false;
+    if (!is_own(option) && !ParseCommonOption(option, address)) return false;
     if (end == std::string_view::npos) return true;
     query = After(query, end + 1);
     if (query.empty()) return false;
@@ -90,35 +120,68 @@ void SplitQuery(std::string_view text, std::string_view& rest, std::string_view&
   return true;
 }
 
-[[nodiscard]] Fault ParseUdp(std::string_view uri, std::string_view text,
-                             LinkAddress& address) noexcept {
+/// @param own The options that only this kind of link has.
+[[nodiscard]] Fault BadOptions(std::string_view uri, const char* own) noexcept {
+  const Printable shown(uri);
+  return MakeFault(Status::kInvalidUri,
+                   "link '%.*s': options are %s, key=FILE, choose=yes, "
+                   "stamps=monotonic|epoch|autopilot, send=landing_target|follow_target",
+                   shown.size, shown.text, own);
+}
+
+/// Reads HOST:PORT.
+/// @param query What follows it.
+[[nodiscard]] Fault ParseEndpoint(std::string_view uri, std::string_view text, LinkAddress& address,
+                                  std::string_view& query) noexcept {
   std::string_view endpoint;
-  std::string_view query;
   SplitQuery(text, endpoint, query);
   const std::size_t colon = endpoint.rfind(':');
   if (colon == std::string_view::npos) {
-    return BadUri(uri, "the port is missing; write udp://HOST:PORT");
+    return BadUri(uri, "the port is missing; write udp://HOST:PORT or tcp://HOST:PORT");
   }
   std::string_view host = Before(endpoint, colon);
   if (host.size() >= 2 && host.front() == '[' && host.back() == ']') {
     host = Before(After(host, 1), host.size() - 2);
   } else if (host.find(':') != std::string_view::npos) {
-    return BadUri(uri, "an IPv6 address needs brackets; write udp://[ADDRESS]:PORT");
+    return BadUri(uri, "an IPv6 address needs brackets; write [ADDRESS]:PORT");
   }
   if (!CopyText(host, address.host)) {
-    return BadUri(uri, "the host is missing or too long; write udp://HOST:PORT");
+    return BadUri(uri, "the host is missing or too long; write udp://HOST:PORT or tcp://HOST:PORT");
   }
   std::uint32_t port = 0;
   if (!ParseNumber(After(endpoint, colon + 1), kMaxPort, port)) {
     return BadUri(uri, "the port is not a number from 1 to 65535");
   }
   address.port = static_cast<std::uint16_t>(port);
+  return {};
+}
+
+[[nodiscard]] Fault ParseUdp(std::string_view uri, std::string_view text,
+                             LinkAddress& address) noexcept {
+  std::string_view query;
+  const Fault fault = ParseEndpoint(uri, text, address, query);
+  if (!fault.ok()) return fault;
   std::uint32_t bind_port = 0;
-  if (!ParseOptions(query, "bind=", kMaxPort, bind_port, address)) {
-    return BadUri(uri,
-                  "options are ?bind=PORT, a number from 1 to 65535, &key=FILE and &choose=yes");
+  const auto is_bind = [&](std::string_view option) {
+    return ParseOption(option, "bind=", kMaxPort, bind_port);
+  };
+  if (!ParseOptions(query, address, is_bind)) {
+    return BadOptions(uri, "bind=PORT (1 to 65535)");
   }
   address.bind_port = static_cast<std::uint16_t>(bind_port);
+  return {};
+}
+
+[[nodiscard]] Fault ParseTcp(std::string_view uri, std::string_view text,
+                             LinkAddress& address) noexcept {
+  std::string_view query;
+  const Fault fault = ParseEndpoint(uri, text, address, query);
+  if (!fault.ok()) return fault;
+  const auto is_listen = [&](std::string_view option) {
+    if (option != "listen=yes" || address.listens) return false;
+    return address.listens = true;
+  };
+  if (!ParseOptions(query, address, is_listen)) return BadOptions(uri, "listen=yes");
   return {};
 }
 
@@ -131,9 +194,11 @@ void SplitQuery(std::string_view text, std::string_view& rest, std::string_view&
     return BadUri(uri, "the device must be an absolute path; write serial:///dev/ttyUSB0");
   }
   std::uint32_t baud = 0;
-  if (!ParseOptions(query, "baud=", kMaxBaud, baud, address)) {
-    return BadUri(uri,
-                  "options are ?baud=RATE, a number from 1 to 4000000, &key=FILE and &choose=yes");
+  const auto is_baud = [&](std::string_view option) {
+    return ParseOption(option, "baud=", kMaxBaud, baud);
+  };
+  if (!ParseOptions(query, address, is_baud)) {
+    return BadOptions(uri, "baud=RATE (to 4000000)");
   }
   if (baud != 0) address.baud = baud;
   return {};
@@ -143,17 +208,23 @@ void SplitQuery(std::string_view text, std::string_view& rest, std::string_view&
 
 Fault ParseLinkAddress(std::string_view uri, LinkAddress& address) noexcept {
   constexpr std::string_view kUdp = "udp://";
+  constexpr std::string_view kTcp = "tcp://";
   constexpr std::string_view kSerial = "serial://";
   LinkAddress parsed;
   Fault fault;
   if (uri.starts_with(kUdp)) {
     parsed.kind = LinkAddress::Kind::kUdp;
     fault = ParseUdp(uri, After(uri, kUdp.size()), parsed);
+  } else if (uri.starts_with(kTcp)) {
+    parsed.kind = LinkAddress::Kind::kTcp;
+    fault = ParseTcp(uri, After(uri, kTcp.size()), parsed);
   } else if (uri.starts_with(kSerial)) {
     parsed.kind = LinkAddress::Kind::kSerial;
     fault = ParseSerial(uri, After(uri, kSerial.size()), parsed);
   } else {
-    fault = BadUri(uri, "unknown kind; write udp://HOST:PORT or serial:///dev/NAME?baud=RATE");
+    fault = BadUri(uri,
+                   "unknown kind; write udp://HOST:PORT, tcp://HOST:PORT or "
+                   "serial:///dev/NAME?baud=RATE");
   }
   if (fault.ok()) address = parsed;
   return fault;

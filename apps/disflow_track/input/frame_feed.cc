@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "input/frame_feed.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "disflow/saturating.h"
@@ -9,6 +10,9 @@ namespace disflow::apps {
 namespace {
 
 constexpr std::int64_t kPatience_ns = 200'000'000;
+/// After a turn for other input, so that much of it costs no more than 2000 turns per second. Short
+/// against the millisecond to which clocks are compared.
+constexpr std::int64_t kInputRest_ns = 500'000;
 
 }  // namespace
 
@@ -26,8 +30,8 @@ FrameFeed::~FrameFeed() {
   if (thread_.joinable()) thread_.join();
 }
 
-FrameFeed::Turn FrameFeed::Next(DepthFrame& frame) {
-  if (handover_) return TakeNewest(frame);
+FrameFeed::Turn FrameFeed::Next(DepthFrame& frame, std::span<const int> inputs) {
+  if (handover_) return TakeNewest(frame, inputs);
   Turn turn;
   turn.event = source_.Next(frame);
   turn.counters = sensor_.counters();
@@ -35,15 +39,40 @@ FrameFeed::Turn FrameFeed::Next(DepthFrame& frame) {
   return turn;
 }
 
-FrameFeed::Turn FrameFeed::TakeNewest(DepthFrame& frame) {
+FrameHandover::Taken FrameFeed::AwaitNewest(DepthFrame& frame, Status& fault,
+                                            std::span<const int> inputs) {
+  std::int64_t now_ns = clock_.NowNs();
+  if (idle_at_ns_ == 0) idle_at_ns_ = now_ns + kPatience_ns;
+  const auto await = [&](std::int64_t until_ns, std::span<const int> also) {
+    return handover_->Take(std::max<std::int64_t>(until_ns - now_ns, 0), frame, fault, also);
+  };
+  const std::int64_t rested_ns = std::min(input_at_ns_ + kInputRest_ns, idle_at_ns_);
+  FrameHandover::Taken taken = FrameHandover::Taken::kNothing;
+  if (now_ns < rested_ns) taken = await(rested_ns, {});
+  if (taken == FrameHandover::Taken::kNothing) {
+    now_ns = clock_.NowNs();
+    taken = await(idle_at_ns_, inputs);
+  }
+  if (taken == FrameHandover::Taken::kInput) {
+    input_at_ns_ = clock_.NowNs();
+  } else {
+    idle_at_ns_ = 0;
+  }
+  return taken;
+}
+
+FrameFeed::Turn FrameFeed::TakeNewest(DepthFrame& frame, std::span<const int> inputs) {
   Turn turn;
-  switch (handover_->Take(kPatience_ns, frame, turn.fault)) {
+  switch (AwaitNewest(frame, turn.fault, inputs)) {
     case FrameHandover::Taken::kFrame:
       turn.event = FrameSource::Event::kFrame;
       break;
     case FrameHandover::Taken::kFault:
       turn.event = FrameSource::Event::kUnreadable;
       break;
+    case FrameHandover::Taken::kInput:
+      turn.event = FrameSource::Event::kInput;
+      return turn;
     case FrameHandover::Taken::kNothing:
       turn.event = FrameSource::Event::kIdle;
       break;

@@ -1,8 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "input/frame_handover.h"
 
+#include <poll.h>
+#include <sys/eventfd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <system_error>
 #include <utility>
 
 #include "disflow/saturating.h"
@@ -22,7 +29,9 @@ void CopyRows(const std::byte* source, std::ptrdiff_t stride_bytes, std::size_t 
 
 }  // namespace
 
-FrameHandover::FrameHandover(int width_px, int height_px, bool with_mask) {
+FrameHandover::FrameHandover(int width_px, int height_px, bool with_mask)
+    : changed_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
+  if (!changed_.is_open()) throw std::system_error(errno, std::generic_category(), "eventfd");
   const std::size_t pixels =
       static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px);
   slots_.ForEach([pixels, with_mask](Slot& slot) {
@@ -71,17 +80,16 @@ void FrameHandover::PutFault(Status fault) {
 }
 
 void FrameHandover::End(std::exception_ptr failure) noexcept {
-  {
-    const std::lock_guard lock(mutex_);
-    ended_ = true;
-    failure_ = std::move(failure);
-  }
-  changed_.notify_one();
+  failure_ = std::move(failure);
+  ended_ = true;
+  Wake();
 }
 
-FrameHandover::Taken FrameHandover::Take(std::int64_t timeout_ns, DepthFrame& frame,
-                                         Status& fault) {
-  const bool ended = AwaitNews(timeout_ns);
+FrameHandover::Taken FrameHandover::Take(std::int64_t timeout_ns, DepthFrame& frame, Status& fault,
+                                         std::span<const int> inputs) {
+  if (AwaitNews(timeout_ns, inputs)) return Taken::kInput;
+  // Ahead of the last look for a frame, since one may have come before the end.
+  const bool ended = ended_;
   if (slots_.Take()) {
     fault = slots_.front().fault;
     if (fault != Status::kOk) return Taken::kFault;
@@ -94,17 +102,33 @@ FrameHandover::Taken FrameHandover::Take(std::int64_t timeout_ns, DepthFrame& fr
   return Taken::kEnd;
 }
 
-bool FrameHandover::AwaitNews(std::int64_t timeout_ns) {
-  std::unique_lock lock(mutex_);
-  changed_.wait_for(lock, std::chrono::nanoseconds(timeout_ns),
-                    [this] { return slots_.HasNews() || ended_; });
-  return ended_;
+bool FrameHandover::AwaitNews(std::int64_t timeout_ns, std::span<const int> inputs) noexcept {
+  using Clock = std::chrono::steady_clock;
+  std::array<pollfd, 1 + kMaxInputs> waiting;
+  std::size_t count = 0;
+  waiting[count++] = {.fd = changed_.get(), .events = POLLIN, .revents = 0};
+  for (const int fd : inputs.first(std::min(inputs.size(), kMaxInputs))) {
+    waiting[count++] = {.fd = fd, .events = POLLIN, .revents = 0};
+  }
+  const Clock::time_point end = Clock::now() + std::chrono::nanoseconds(timeout_ns);
+  while (!HasNews()) {
+    const std::chrono::nanoseconds left = end - Clock::now();
+    if (left.count() <= 0) return false;
+    const timespec timeout{.tv_sec = left.count() / 1'000'000'000,
+                           .tv_nsec = left.count() % 1'000'000'000};
+    if (::ppoll(waiting.data(), count, &timeout, nullptr) <= 0) continue;
+    eventfd_t wakes = 0;
+    if (waiting[0].revents != 0) (void)::eventfd_read(changed_.get(), &wakes);
+    for (pollfd& input : std::span(waiting).subspan(1, count - 1)) {
+      if (input.revents == POLLIN) return true;
+      // It would end every wait at once; who reads it finds out.
+      if (input.revents != 0) input.fd = -1;
+    }
+  }
+  return false;
 }
 
-/// Who waits has looked for news with the mutex locked: it either has seen this, or sleeps by now.
-void FrameHandover::Wake() noexcept {
-  { const std::lock_guard lock(mutex_); }
-  changed_.notify_one();
-}
+/// Who waits looks for news after each wake, and a wake before the wait ends that at once.
+void FrameHandover::Wake() noexcept { (void)::eventfd_write(changed_.get(), 1); }
 
 }  // namespace disflow::apps

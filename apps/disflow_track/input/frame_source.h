@@ -21,6 +21,7 @@ class FrameSource {
     kFrame,       ///< `frame` is filled.
     kUnreadable,  ///< One frame of the input is lost; fault_status() says why.
     kIdle,        ///< Nothing came for a while; ask again.
+    kInput,       ///< Something else came in for which the tracking thread waits, see FrameFeed.
     kEnd,
   };
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "settings/camera_in_body.h"
 #include "settings/dds_address.h"
 
 namespace disflow::apps {
@@ -15,14 +16,7 @@ constexpr std::int64_t kMaxTfLead_ns = 1'000'000'000;
 
 /// @param on_time What arrives can be compared with the time of now.
 hal::CameraPoseHistory::Settings PoseSettings(const CameraPoseOptions& options, bool on_time) {
-  // Optical axes (right, down, forward) in a body's (forward, right, down).
-  std::vector<double> numbers = {0.0, 0.0, 0.0, 0.5, 0.5, 0.5, 0.5};
-  if (!options.camera_in_body.empty()) numbers = options.camera_in_body;
-  const Eigen::Quaternion<double, Eigen::DontAlign> q(numbers[3], numbers[4], numbers[5],
-                                                      numbers[6]);
-  const Transform<hal::Body, Camera, double> T_bc(
-      q, Mat<double, 3>(numbers[0], numbers[1], numbers[2]));
-  hal::CameraPoseHistory::Settings settings{.T_bc = T_bc.Cast<float>()};
+  hal::CameraPoseHistory::Settings settings{.T_bc = CameraInBody(options).Cast<float>()};
   // Nobody knows where the carrier will be; but what is sent to a replay may come at any pace.
   if (on_time) settings.max_lead_ns = kMaxLead_ns;
   return settings;

@@ -8,7 +8,9 @@ namespace disflow::apps {
 
 Outputs::Outputs(const Options& options, const hal::SensorInfo& sensor, Console& console,
                  hal::CameraPoseHistory* camera_poses)
-    : console_(console), telemetry_(options, camera_poses, console), record_path_(options.record) {
+    : console_(console),
+      telemetry_(options, sensor, camera_poses, console),
+      record_path_(options.record) {
   for (const ObjectOptions& object : options.objects) objects_.emplace_back(object.files);
   if (!options.record.empty()) StartRecording(options, sensor);
   // Last, since it empties files that may exist.

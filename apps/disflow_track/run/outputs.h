@@ -43,6 +43,8 @@ class Outputs {
   void Answer(const TrackedObjects& objects, std::span<const FrameResult> results) noexcept {
     telemetry_.Answer(objects, results);
   }
+  /// What shows input when something has come in on the links.
+  [[nodiscard]] std::span<const int> fds() noexcept { return telemetry_.fds(); }
   void KeepAlive(std::int64_t now_ns) noexcept { telemetry_.KeepAlive(now_ns); }
 
   /// Closes all. @return false if something that was asked for is not complete.

@@ -117,8 +117,13 @@ class TrackingRun {
         Rest();
         continue;
       }
-      const FrameFeed::Turn turn = feed.Next(frame_);
+      const FrameFeed::Turn turn = feed.Next(frame_, outputs_.fds());
       if (turn.event == FrameSource::Event::kEnd) return;
+      if (turn.event == FrameSource::Event::kInput) {
+        // At once, so that the time at which a message came is known.
+        outputs_.Receive(CaptureNowNs(clock_.NowNs()));
+        continue;
+      }
       if (turn.event == FrameSource::Event::kIdle) {
         KeepAlive(clock_.NowNs());
       } else {

@@ -27,11 +27,15 @@ constexpr const char* kDescription =
 constexpr const char* kLinksAndStatus =
     "\n"
     "Links, each carries MAVLink 2 (docs/wire-format.md):\n"
-    "  udp://HOST:PORT[?bind=PORT][&key=FILE][&choose=yes]\n"
-    "  serial:///dev/NAME[?baud=RATE][&key=FILE][&choose=yes]\n"
-    "    key: sign what is sent and take only what is signed, with the key in that file; choose: "
-    "who\n"
-    "    is at the other end may say what is tracked (MAV_CMD_CAMERA_TRACK_POINT, …_RECTANGLE)\n"
+    "  udp://HOST:PORT[?bind=PORT]\n"
+    "  tcp://HOST:PORT[?listen=yes]\n"
+    "  serial:///dev/NAME[?baud=RATE]\n"
+    "    each also with key=FILE: sign what is sent and take only what is signed, with the key in\n"
+    "    that file; choose=yes: who is at the other end may say what is tracked\n"
+    "    (MAV_CMD_CAMERA_TRACK_POINT, …_RECTANGLE); stamps=monotonic|epoch|autopilot: the clock "
+    "of\n"
+    "    the stamps, if not the images'; send=landing_target|follow_target: instead of ODOMETRY,\n"
+    "    for autopilots\n"
     "or ROS 2 (docs/ros2.md):\n"
     "  dds:domain=N[&name=NODE][&interface=NAME][&peer=HOST,…][&camera=FRAME][&world=FRAME]\n"
     "      [&mask=TOPIC][&reset=yes][&choose=yes][&ros=humble|iron]\n"
@@ -230,6 +234,9 @@ void CheckCameraPose(const Options& options) {
     throw Failure(kWrongUsage, "--camera-pose " + std::to_string(pose.system_id) +
                                    " is this program's own system id");
   }
+}
+
+void CheckCameraInBody(const CameraPoseOptions& pose) {
   if (pose.camera_in_body.empty()) return;
   double norm = 0.0;
   bool finite = true;
@@ -296,6 +303,7 @@ Options ParseCommandLine(int argc, char** argv, bool& exit_now) {
   if (IsDdsAddress(options.sensor))
     (void)SensorNode(ParseDdsSensorAddress(options.sensor), options.dds_link);
   CheckCameraPose(options);
+  CheckCameraInBody(options.camera_pose);
   CheckMaskStream(options);
   if (options.sensor.empty() && !options.list_sensors && !options.print_config &&
       !options.print_settings_table) {

@@ -178,4 +178,13 @@ Heartbeat MakeHeartbeat(TrackingState state) noexcept {
   return heartbeat;
 }
 
+SystemTime MakeSystemTime(std::int64_t boot_ns, std::int64_t epoch_ns) noexcept {
+  constexpr std::int64_t k2015_ns = 1'420'070'400'000'000'000;
+  SystemTime time;
+  if (epoch_ns >= k2015_ns) time.time_unix_usec = MicrosecondsOf(epoch_ns);
+  // After 49 days it begins anew, as all such counts do.
+  time.time_boot_ms = static_cast<std::uint32_t>(MicrosecondsOf(boot_ns) / 1000);
+  return time;
+}
+
 }  // namespace disflow::hal::mavlink

@@ -7,7 +7,6 @@
 
 #include <cstring>
 
-#include "disflow/saturating.h"
 #include "errno_fault.h"
 
 namespace disflow::posix {
@@ -78,63 +77,18 @@ hal::Fault SocketLink::DoOpen() noexcept {
   FileDescriptor fd = name_.starts_with(kUnix) ? ConnectUnix(name_.substr(kUnix.size()), fault)
                                                : ConnectTcp(name_.substr(kTcp.size()), fault);
   if (!fault.ok()) return fault;
-  socket_ = std::move(fd);
-  pending_.clear();
+  socket_.Take(std::move(fd));
   return {};
-}
-
-/// @return 0 or errno; EAGAIN if something is left.
-int SocketLink::Flush() noexcept {
-  std::size_t sent = 0;
-  int error = 0;
-  while (sent < pending_.size() && error == 0) {
-    const ssize_t size = RetryOnSignal([&] {
-      return ::send(socket_.get(), pending_.data() + sent, pending_.size() - sent,
-                    MSG_DONTWAIT | MSG_NOSIGNAL);
-    });
-    if (size < 0) {
-      error = errno;
-    } else {
-      sent += static_cast<std::size_t>(size);
-    }
-  }
-  AddSaturating(counters_.sent_bytes, sent);
-  pending_.erase(pending_.begin(), pending_.begin() + static_cast<std::ptrdiff_t>(sent));
-  return error;
 }
 
 hal::Fault SocketLink::DoSend(std::span<const std::byte> message) noexcept {
   if (!socket_.is_open()) return hal::MakeFault(Status::kNotOpen, "%s: not open", name());
-  int error = Flush();
-  if (error == EAGAIN) {
-    AddSaturating(counters_.dropped_messages);
-    return hal::MakeFault(Status::kWouldBlock, "%s: the far end does not take bytes", name());
-  }
-  if (error == 0) {
-    pending_.assign(message.begin(), message.end());
-    error = Flush();
-  }
-  if (error != 0 && error != EAGAIN) return Lost("cannot send", error);
-  AddSaturating(counters_.sent_messages);
-  return {};
+  return socket_.Send(message, name(), counters_);
 }
 
 Expected<std::size_t> SocketLink::DoReceive(std::span<std::byte> buffer) noexcept {
   if (!socket_.is_open()) return {0, Status::kNotOpen};
-  if (const int error = Flush(); error != 0 && error != EAGAIN) {
-    return {0, Lost("cannot send", error).status};
-  }
-  const ssize_t size = RetryOnSignal(
-      [&] { return ::recv(socket_.get(), buffer.data(), buffer.size(), MSG_DONTWAIT); });
-  if (size < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) return {0};
-  if (size <= 0) return {0, Lost("cannot receive", size < 0 ? errno : ECONNRESET).status};
-  AddSaturating(counters_.received_bytes, static_cast<std::uint64_t>(size));
-  return {static_cast<std::size_t>(size)};
-}
-
-hal::Fault SocketLink::Lost(const char* what, int error) noexcept {
-  socket_.Reset();
-  return ErrnoFault(Status::kDeviceLost, name(), what, error);
+  return socket_.Receive(buffer, name(), counters_);
 }
 
 }  // namespace disflow::posix

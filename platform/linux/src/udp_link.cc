@@ -1,47 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "disflow/posix/udp_link.h"
 
-#include <netdb.h>
 #include <netinet/in.h>
 
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <memory>
 
 #include "disflow/saturating.h"
 #include "errno_fault.h"
+#include "internet_host.h"
 
 namespace disflow::posix {
 namespace {
 
 /// Taken with one call of the system.
 constexpr std::size_t kMaxDatagrams = 64;
-
-using AddressList = std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)>;
-
-std::string NameOf(const hal::LinkAddress& address) {
-  const std::string host = address.host;
-  const bool is_ipv6 = host.find(':') != std::string::npos;
-  return "udp://" + (is_ipv6 ? "[" + host + "]" : host) + ":" + std::to_string(address.port);
-}
-
-hal::Fault Resolve(const hal::LinkAddress& address, const char* name, AddressList& list) noexcept {
-  char port[8] = {};
-  (void)std::snprintf(port, sizeof(port), "%u", unsigned{address.port});
-  addrinfo hints{};
-  hints.ai_socktype = SOCK_DGRAM;
-  hints.ai_flags = AI_NUMERICSERV;
-  addrinfo* found = nullptr;
-  const int error = ::getaddrinfo(address.host, port, &hints, &found);
-  if (error != 0) {
-    return hal::MakeFault(Status::kNotFound,
-                          "%s: host '%s' cannot be found: %s; check the name or use an address",
-                          name, address.host, ::gai_strerror(error));
-  }
-  list.reset(found);
-  return {};
-}
 
 /// Binds to `port` on every address of the family.
 int BindAny(int fd, int family, std::uint16_t port) noexcept {
@@ -92,13 +66,14 @@ hal::Fault Connect(const sockaddr_storage& peer, socklen_t peer_size,
 
 }  // namespace
 
-UdpLink::UdpLink(const hal::LinkAddress& address) : address_(address), name_(NameOf(address)) {}
+UdpLink::UdpLink(const hal::LinkAddress& address)
+    : address_(address), name_(NameOfHost("udp://", address)) {}
 
 hal::Fault UdpLink::DoOpen() noexcept {
   if (socket_.is_open()) return {};
   if (peer_size_ > 0) return Connect(peer_, peer_size_, address_, name(), socket_);
   AddressList list(nullptr, &::freeaddrinfo);
-  hal::Fault fault = Resolve(address_, name(), list);
+  hal::Fault fault = ResolveHost(address_, SOCK_DGRAM, name(), list);
   if (!fault.ok()) return fault;
 
   fault = hal::MakeFault(Status::kNotFound, "%s: host has no address", name());

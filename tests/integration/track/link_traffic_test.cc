@@ -85,7 +85,7 @@ class LinkTrafficTest : public ::testing::Test {
   Options options_ = WithLink(peer_.number(), own_);
   Console console_{false};
   hal::CameraPoseHistory history_{{}};
-  TelemetryOutput telemetry_{options_, &history_, console_};
+  TelemetryOutput telemetry_{options_, hal::SensorInfo{}, &history_, console_};
   ForeignTraffic traffic_;
   StampNs posed_ns_ = kStart_ns;
   std::int64_t now_ns_ = kStart_ns;

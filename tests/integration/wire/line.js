@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 'use strict';
-// Real lines to talk over: a UDP socket on the loopback and a pair of pseudo-terminals by socat.
+// Real lines to talk over: UDP and TCP on the loopback and a pair of pseudo-terminals by socat.
 const {spawn} = require('child_process');
 const dgram = require('dgram');
 const fs = require('fs');
+const net = require('net');
 const os = require('os');
 const path = require('path');
 const tty = require('tty');
@@ -31,6 +32,61 @@ async function openUdp() {
   };
 }
 
+/** A port of the loopback that nobody has. */
+async function freePort() {
+  const server = net.createServer();
+  await new Promise((resolve) => server.listen(0, '127.0.0.1', resolve));
+  const {port} = server.address();
+  await new Promise((resolve) => server.close(resolve));
+  return port;
+}
+
+/** The far end is the server. */
+async function openTcp() {
+  let take;
+  const connected = new Promise((resolve) => { take = resolve; });
+  const server = net.createServer((socket) => {
+    socket.setNoDelay(true).on('error', () => {});
+    take(socket);
+  });
+  await new Promise((resolve) => server.listen(0, '127.0.0.1', resolve));
+  return {
+    uri: `tcp://127.0.0.1:${server.address().port}?choose=yes`,
+    onBytes: (callback) => connected.then((socket) => socket.on('data', callback)),
+    write: async (bytes) => (await connected).write(bytes),
+    close: () => {
+      connected.then((socket) => socket.destroy());
+      server.close();
+    },
+  };
+}
+
+/** The far end connects, again and again until somebody listens. */
+async function openTcpListen() {
+  const port = await freePort();
+  let open = true;
+  const connect = async () => {
+    while (open) {
+      const socket = net.connect({port, host: '127.0.0.1', noDelay: true});
+      const ok = await new Promise((resolve) => socket.once('connect', () => resolve(true))
+                                                      .once('error', () => resolve(false)));
+      if (ok) return socket.on('error', () => {});
+      await delay(5);
+    }
+    return undefined;
+  };
+  const connected = connect();
+  return {
+    uri: `tcp://127.0.0.1:${port}?listen=yes`,
+    onBytes: (callback) => connected.then((socket) => socket.on('data', callback)),
+    write: async (bytes) => (await connected).write(bytes),
+    close: () => {
+      open = false;
+      connected.then((socket) => socket && socket.destroy());
+    },
+  };
+}
+
 async function openSerial() {
   const folder = fs.mkdtempSync(path.join(os.tmpdir(), 'disflow-wire-'));
   const [near, far] = ['near', 'far'].map((name) => path.join(folder, name));
@@ -52,4 +108,7 @@ async function openSerial() {
   };
 }
 
-module.exports = {open: {udp: openUdp, serial: openSerial}};
+module.exports = {
+  open: {udp: openUdp, tcp: openTcp, 'tcp-listen': openTcpListen, serial: openSerial},
+  freePort,
+};

@@ -34,7 +34,10 @@ function classFromDefinition(definition) {
 async function loadDialect(xmlPath) {
   const {messages} = await generateAll(fs.readFileSync(xmlPath, 'utf8'), {write() {}}, 'disflow');
   const classes = {HEARTBEAT: minimal.Heartbeat, ODOMETRY: common.Odometry,
-                   COMMAND_LONG: common.CommandLong, COMMAND_ACK: common.CommandAck};
+                   COMMAND_LONG: common.CommandLong, COMMAND_ACK: common.CommandAck,
+                   SYSTEM_TIME: common.SystemTime, TIMESYNC: common.TimeSync,
+                   LANDING_TARGET: common.LandingTarget, FOLLOW_TARGET: common.FollowTarget,
+                   GPS_GLOBAL_ORIGIN: common.GpsGlobalOrigin};
   const magicNumbers = {...MSG_ID_MAGIC_NUMBER};
   for (const definition of messages) {
     const made = classFromDefinition(definition);
@@ -49,7 +52,7 @@ const special = {NaN, Infinity};
 /** A field of vectors.json as node-mavlink wants it. */
 function toNative(value, type) {
   if (Array.isArray(value)) return value.map((item) => toNative(item, type));
-  if (type.startsWith('uint64_t')) return BigInt(value);
+  if (/^u?int64_t/.test(type)) return BigInt(value);
   return typeof value === 'string' ? special[value] : value;
 }
 

@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Runs wire_test.js with the given arguments; exit status 77 = skipped, the reason is printed.
+# Runs a script of this folder, the first argument, with the others; exit status 77 = skipped, the reason is printed.
 set -eu
 here=$(dirname "$0")
 skip() {
@@ -10,4 +10,6 @@ skip() {
 command -v node >/dev/null || skip "Node.js is not installed (apt-get install nodejs npm)"
 command -v socat >/dev/null || skip "socat is not installed (apt-get install socat)"
 [ -d "$here/node_modules/node-mavlink" ] || skip "npm packages are missing (npm ci --prefix $here)"
-exec node "$here/wire_test.js" "$@"
+script=$1
+shift
+exec node "$here/$script" "$@"

@@ -122,6 +122,11 @@ std::size_t Encode(const json& vector, std::span<std::byte> out) {
   if (name == DisflowField::kName) return EncodeFromJson<DisflowField>(vector, out);
   if (name == CommandLong::kName) return EncodeFromJson<CommandLong>(vector, out);
   if (name == CommandAck::kName) return EncodeFromJson<CommandAck>(vector, out);
+  if (name == SystemTime::kName) return EncodeFromJson<SystemTime>(vector, out);
+  if (name == TimeSyncMessage::kName) return EncodeFromJson<TimeSyncMessage>(vector, out);
+  if (name == LandingTarget::kName) return EncodeFromJson<LandingTarget>(vector, out);
+  if (name == FollowTarget::kName) return EncodeFromJson<FollowTarget>(vector, out);
+  if (name == GpsGlobalOrigin::kName) return EncodeFromJson<GpsGlobalOrigin>(vector, out);
   Fail("unknown message " + name);
 }
 
@@ -143,6 +148,19 @@ bool PrintIf(const FrameView& frame) {
 
 constexpr std::uint8_t kLinkId = 3;
 
+/// A peer over TCP may still be on its way.
+void SendWhenSomebodyIsThere(hal::ByteLink& link, std::span<const std::byte> message) {
+  posix::MonotonicClock clock;
+  const std::uint32_t sent = link.counters().sent_messages;
+  for (int waited_ms = 0; waited_ms < kPatienceMs; ++waited_ms) {
+    const hal::Fault fault = link.Send(message);
+    if (!fault.ok()) Fail(fault.message);
+    if (link.counters().sent_messages > sent) return;
+    clock.SleepUntilNs(clock.NowNs() + kNsPerMs);
+  }
+  Fail("nobody is there");
+}
+
 int Send(hal::ByteLink& link, SigningSession* session, const char* path) {
   std::ifstream file(path);
   const json vectors = json::parse(file);
@@ -155,8 +173,7 @@ int Send(hal::ByteLink& link, SigningSession* session, const char* path) {
       if (!signed_size.ok()) Fail(Describe(signed_size.status));
       size = signed_size.value;
     }
-    const hal::Fault fault = link.Send(std::span(buffer).first(size));
-    if (!fault.ok()) Fail(fault.message);
+    SendWhenSomebodyIsThere(link, std::span(buffer).first(size));
   }
   // The far end says when it has everything, so that closing the link cuts nothing off.
   while (std::getchar() != EOF) {
@@ -183,7 +200,9 @@ int Receive(hal::ByteLink& link, SigningSession* session, std::uint32_t count) {
              PrintIf<DisflowStatus>(frame) || PrintIf<DisflowReady>(frame) ||
              PrintIf<DisflowTiming>(frame) || PrintIf<DisflowQuery>(frame) ||
              PrintIf<DisflowField>(frame) || PrintIf<CommandLong>(frame) ||
-             PrintIf<CommandAck>(frame));
+             PrintIf<CommandAck>(frame) || PrintIf<SystemTime>(frame) ||
+             PrintIf<TimeSyncMessage>(frame) || PrintIf<LandingTarget>(frame) ||
+             PrintIf<FollowTarget>(frame) || PrintIf<GpsGlobalOrigin>(frame));
     });
   }
   const DecoderCounters& counters = decoder.counters();
@@ -207,9 +226,9 @@ int main(int argc, char** argv) {
   if (fault.ok()) fault = link.get()->Open();
   if (!fault.ok()) Fail(fault.message);
   std::optional<SigningSession> session;
-  if (!link.key_file().empty()) {
+  if (link.address().key_file[0] != '\0') {
     SigningKey key{};
-    fault = posix::ReadSigningKey(link.key_file(), key);
+    fault = posix::ReadSigningKey(link.address().key_file, key);
     if (!fault.ok()) Fail(fault.message);
     session.emplace(key, posix::SigningTimeNow());
   }

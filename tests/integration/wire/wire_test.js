@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 'use strict';
-// usage: node wire_test.js udp|serial send|receive|send-signed|receive-signed DISFLOW.xml WIRE_PEER...
+// usage: node wire_test.js udp|tcp|tcp-listen|serial send|receive|send-signed|receive-signed DISFLOW.xml WIRE_PEER...
 //   send            DisFlow sends, node-mavlink decodes; every field and every byte must agree
 //   receive         node-mavlink sends, with garbage, foreign and signed messages; DisFlow decodes
 //   send-signed     as send; every signature must be the one that node-mavlink makes
@@ -74,7 +74,7 @@ async function testSend(line, dialect, peer, key) {
 
 /** What node sends: every vector, then a signed one, with things in between that are none. */
 function traffic(dialect) {
-  const foreign = new MavLinkProtocolV2(1, 1).serialize(new common.SystemTime(), 0);
+  const foreign = new MavLinkProtocolV2(1, 1).serialize(new common.Attitude(), 0);
   const damaged = encode(vectors[0], dialect);
   damaged[12] ^= 0x40;
   const parts = [Buffer.from([0xfd, 0x00, 0xfd, 0xff, 0xfe]), foreign, damaged];

@@ -15,6 +15,10 @@ TEST(Link, Kind_FollowsTheAddress) {
   EXPECT_STREQ(link.get()->name(), "udp://127.0.0.1:14550");
   ASSERT_TRUE(link.Configure("serial:///dev/ttyS0?baud=115200").ok());
   EXPECT_STREQ(link.get()->name(), "serial:///dev/ttyS0");
+  ASSERT_TRUE(link.Configure("tcp://[::1]:5760?stamps=epoch").ok());
+  EXPECT_STREQ(link.get()->name(), "tcp://[::1]:5760");
+  EXPECT_EQ(link.address().stamps, hal::LinkAddress::Stamps::kEpoch);
+  EXPECT_EQ(link.fd(), -1);
 }
 
 TEST(Link, BadAddress_LeavesTheOldLink) {

@@ -2,6 +2,7 @@
 #include "input/frame_handover.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <array>
 #include <atomic>
@@ -192,6 +193,52 @@ TEST_F(FrameHandoverTest, StressOfFramesAndFaults_IsWholeInOrderAndComplete) {
   EXPECT_EQ(wrong, 0);
   EXPECT_EQ(newest, kFrames) << "the last frame never makes way";
   EXPECT_EQ(frames + handover_.dropped(), kFrames);
+}
+
+/// A pipe, whose readable end is what a tracking thread also waits for.
+class Pipe {
+ public:
+  Pipe() {
+    int ends[2] = {-1, -1};
+    EXPECT_EQ(::pipe(ends), 0);
+    out = posix::FileDescriptor(ends[0]);
+    in = posix::FileDescriptor(ends[1]);
+  }
+  void Write() const { EXPECT_EQ(::write(in.get(), "x", 1), 1); }
+  posix::FileDescriptor out;
+  posix::FileDescriptor in;
+};
+
+TEST_F(FrameHandoverTest, Input_EndsTheWaitAndLeavesTheFrameTakenBefore) {
+  const Pipe pipe;
+  const int inputs[] = {-1, pipe.out.get()};
+  handover_.Put(numbered_.Set(1));
+  ASSERT_EQ(handover_.Take(kLong_ns, frame_, fault_, inputs), Taken::kFrame);
+  EXPECT_EQ(handover_.Take(kNotAtAll_ns, frame_, fault_, inputs), Taken::kNothing);
+  pipe.Write();
+  EXPECT_EQ(handover_.Take(kLong_ns, frame_, fault_, inputs), Taken::kInput);
+  EXPECT_EQ(frame_.stamp_ns, 1);
+  EXPECT_TRUE(IsWhole(frame_));
+}
+
+TEST_F(FrameHandoverTest, FrameBesideInput_GoesFirst) {
+  const Pipe pipe;
+  const int inputs[] = {pipe.out.get()};
+  pipe.Write();
+  handover_.Put(numbered_.Set(1));
+  EXPECT_EQ(handover_.Take(kLong_ns, frame_, fault_, inputs), Taken::kFrame);
+  handover_.End(nullptr);
+  EXPECT_EQ(handover_.Take(kLong_ns, frame_, fault_, inputs), Taken::kEnd);
+}
+
+TEST_F(FrameHandoverTest, BrokenInput_IsLeftOut) {
+  Pipe pipe;
+  const int inputs[] = {pipe.out.get()};
+  pipe.in.Reset();  // Hung up: it would end every wait at once.
+  constexpr std::int64_t kMoment_ns = 20'000'000;
+  EXPECT_EQ(handover_.Take(kMoment_ns, frame_, fault_, inputs), Taken::kNothing);
+  handover_.Put(numbered_.Set(1));
+  EXPECT_EQ(handover_.Take(kLong_ns, frame_, fault_, inputs), Taken::kFrame);
 }
 
 TEST_F(FrameHandoverTest, StressInLockStep_EveryWakeUpArrives) {

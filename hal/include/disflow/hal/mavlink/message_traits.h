@@ -25,6 +25,8 @@ template <class T>
     return "int8_t";
   } else if constexpr (std::same_as<T, std::int32_t>) {
     return "int32_t";
+  } else if constexpr (std::same_as<T, std::int64_t>) {
+    return "int64_t";
   } else if constexpr (std::same_as<T, std::uint8_t>) {
     return "uint8_t";
   } else if constexpr (std::same_as<T, std::uint16_t>) {
@@ -108,6 +110,11 @@ static_assert(PayloadSize<Heartbeat>() == 9 && CrcExtra<Heartbeat>() == 50);
 static_assert(PayloadSize<Odometry>() == 233 && CrcExtra<Odometry>() == 91);
 static_assert(PayloadSize<CommandLong>() == 33 && CrcExtra<CommandLong>() == 152);
 static_assert(PayloadSize<CommandAck>() == 10 && CrcExtra<CommandAck>() == 143);
+static_assert(PayloadSize<SystemTime>() == 12 && CrcExtra<SystemTime>() == 137);
+static_assert(PayloadSize<TimeSyncMessage>() == 18 && CrcExtra<TimeSyncMessage>() == 34);
+static_assert(PayloadSize<LandingTarget>() == 60 && CrcExtra<LandingTarget>() == 200);
+static_assert(PayloadSize<FollowTarget>() == 93 && CrcExtra<FollowTarget>() == 127);
+static_assert(PayloadSize<GpsGlobalOrigin>() == 20 && CrcExtra<GpsGlobalOrigin>() == 39);
 static_assert(PayloadSize<DisflowStatus>() == 76 && CrcExtra<DisflowStatus>() == 237);
 static_assert(PayloadSize<DisflowReady>() == 28 && CrcExtra<DisflowReady>() == 194);
 static_assert(PayloadSize<DisflowTiming>() == 76 && CrcExtra<DisflowTiming>() == 7);

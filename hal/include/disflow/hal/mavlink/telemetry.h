@@ -51,8 +51,12 @@ struct SendContext {
                                        const SendContext& context) noexcept;
 [[nodiscard]] Heartbeat MakeHeartbeat(TrackingState state) noexcept;
 
+/// @param boot_ns Now, on a clock that never runs backwards.
+/// @param epoch_ns Now, since 1970; a clock that was never set, before 2015, is sent as not known.
+[[nodiscard]] SystemTime MakeSystemTime(std::int64_t boot_ns, std::int64_t epoch_ns) noexcept;
+
 /// Writes the messages of one tracked object, numbering its frames. Use one encoder per object and
-/// send the same bytes to every link.
+/// link, so that a gap in the numbers is a lost message.
 class TelemetryEncoder {
  public:
   /// @param options Valid, see Validate().

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <string>
 #include <string_view>
 #include <variant>
 
 #include "disflow/posix/serial_link.h"
+#include "disflow/posix/tcp_link.h"
 #include "disflow/posix/udp_link.h"
 
 namespace disflow::posix {
 
-/// A UDP or serial link, chosen by its address. Cannot be moved: keep it in a std::deque or an
+/// A UDP, TCP or serial link, chosen by its address. Cannot be moved: keep it in a std::deque or an
 /// array.
 class Link {
  public:
@@ -25,17 +25,15 @@ class Link {
 
   /// @return The link, or null before Configure() succeeded.
   [[nodiscard]] hal::ByteLink* get() noexcept;
-  /// File with the key that messages are to be signed with, empty for none: who sends and decodes
-  /// the messages has to see to it.
-  [[nodiscard]] const std::string& key_file() const noexcept { return key_file_; }
-
-  /// See hal::LinkAddress.
-  [[nodiscard]] bool may_choose() const noexcept { return may_choose_; }
+  /// What Configure() was given; what it says of keys, stamps, messages and choices is for who
+  /// sends and decodes the messages.
+  [[nodiscard]] const hal::LinkAddress& address() const noexcept { return address_; }
+  /// What shows input when something can be received, for poll(); -1: nothing is open.
+  [[nodiscard]] int fd() const noexcept;
 
  private:
-  std::variant<std::monostate, UdpLink, SerialLink> link_;
-  std::string key_file_;
-  bool may_choose_ = false;
+  std::variant<std::monostate, UdpLink, TcpLink, SerialLink> link_;
+  hal::LinkAddress address_;
 };
 
 }  // namespace disflow::posix

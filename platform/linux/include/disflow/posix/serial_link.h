@@ -25,6 +25,9 @@ class SerialLink final : public hal::ByteLink {
   explicit SerialLink(const hal::LinkAddress& address);
   ~SerialLink();
 
+  /// What shows input when something can be received; -1: not open.
+  [[nodiscard]] int fd() const noexcept { return port_.get(); }
+
  private:
   hal::Fault DoOpen() noexcept override;
   /// Waits a fraction of a second for what is on its way, then gives back the port with the

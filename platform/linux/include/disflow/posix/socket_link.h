@@ -3,10 +3,9 @@
 
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "disflow/hal/byte_link.h"
-#include "disflow/posix/file_descriptor.h"
+#include "disflow/posix/stream_socket.h"
 
 namespace disflow::posix {
 
@@ -21,18 +20,14 @@ class SocketLink final : public hal::ByteLink {
 
  private:
   hal::Fault DoOpen() noexcept override;
-  void DoClose() noexcept override { socket_.Reset(); }
+  void DoClose() noexcept override { socket_.Close(); }
   hal::Fault DoSend(std::span<const std::byte> message) noexcept override;
   Expected<std::size_t> DoReceive(std::span<std::byte> buffer) noexcept override;
   [[nodiscard]] const char* DoName() const noexcept override { return name_.c_str(); }
   [[nodiscard]] hal::LinkCounters DoCounters() const noexcept override { return counters_; }
 
-  [[nodiscard]] int Flush() noexcept;
-  [[nodiscard]] hal::Fault Lost(const char* what, int error) noexcept;
-
   std::string name_;
-  FileDescriptor socket_;
-  std::vector<std::byte> pending_;  ///< What the socket did not take of a message yet.
+  StreamSocket socket_;
   hal::LinkCounters counters_;
 };
 

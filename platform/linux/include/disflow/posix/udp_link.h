@@ -30,6 +30,9 @@ class UdpLink final : public hal::ByteLink {
   /// @param address Of kind kUdp.
   explicit UdpLink(const hal::LinkAddress& address);
 
+  /// What shows input when something can be received; -1: not open.
+  [[nodiscard]] int fd() const noexcept { return socket_.get(); }
+
  private:
   hal::Fault DoOpen() noexcept override;
   void DoClose() noexcept override;
