@@ -202,6 +202,41 @@ TEST_F(LinkTest, CommandToTrackAPoint_IsDeniedOnOtherLinks) {
   EXPECT_EQ(track.Wait().exit_status, 0);
 }
 
+TEST_F(LinkTest, LinkThatSendsLandingTargets_HasTheSamePlacesAndNoOdometry) {
+  Receiver poses;
+  Receiver autopilot;
+  const Outcome outcome = RunTrack(
+      {"--sensor", "sim:bottle?frames=20", "--link", "udp://127.0.0.1:" + poses.port(), "--link",
+       "udp://127.0.0.1:" + autopilot.port() + "?send=landing_target", "--id", "2"},
+      scratch());
+  ASSERT_EQ(outcome.exit_status, 0) << outcome.err;
+  std::map<std::uint64_t, mavlink::Odometry> measured;
+  poses.Drain([&](const mavlink::FrameView& frame) {
+    mavlink::Odometry odometry;
+    if (mavlink::DecodePayload(frame, odometry) != Status::kOk || odometry.quality < 0) return;
+    measured[odometry.time_usec] = odometry;
+  });
+  std::size_t targets = 0;
+  autopilot.Drain([&](const mavlink::FrameView& frame) {
+    EXPECT_NE(frame.message_id, mavlink::Odometry::kId);
+    mavlink::LandingTarget target;
+    if (mavlink::DecodePayload(frame, target) != Status::kOk) return;
+    ++targets;
+    ASSERT_TRUE(measured.contains(target.time_usec));
+    // Nothing is said of where the camera sits: it looks ahead from the vehicle's origin.
+    const mavlink::Odometry& odometry = measured[target.time_usec];
+    EXPECT_NEAR(target.x, odometry.x, 1e-5F);
+    EXPECT_NEAR(target.y, odometry.y, 1e-5F);
+    EXPECT_NEAR(target.z, odometry.z, 1e-5F);
+    EXPECT_NEAR(target.q[3], odometry.q[3], 1e-5F);
+    EXPECT_EQ(target.target_num, 2);
+    EXPECT_EQ(frame.header.component_id, 27);
+  });
+  EXPECT_GE(targets, 15U);
+  EXPECT_EQ(targets, measured.size());
+  EXPECT_EQ(autopilot.counters().bad_checksum, 0U);
+}
+
 TEST_F(LinkTest, UdpReceiver_GetsPoseAndStatusOfEveryFrameAndHeartbeats) {
   constexpr int kFrames = 45;  // 1.5 s
   Receiver receiver;

@@ -139,6 +139,9 @@ TEST_F(SideInputTest, CameraPoseWithoutSense_IsRefused) {
       {"--camera-pose", "300", "--link", "udp://127.0.0.1:9"},
       {"--camera-pose", "1", "--link", "udp://127.0.0.1:9", "--camera-in-body", "0,0,0,1,1,0,0"},
       {"--camera-pose", "1", "--link", "udp://127.0.0.1:9", "--camera-in-body", "0,0,nan,1,0,0,0"},
+      {"--camera-in-body", "0,0,0,1,1,0,0"},
+      {"--link", "udp://127.0.0.1:9?send=follow_target"},
+      {"--camera-pose", "1", "--link", "udp://127.0.0.1:9?send=follow_target"},
       {"--mask-stream", "masks"},
       {"--range", "2,1"},
       {"--roi", "0,0,10"}};

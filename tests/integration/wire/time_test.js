@@ -3,7 +3,8 @@
 // usage: node time_test.js DISFLOW.xml DISFLOW_TRACK...
 // An autopilot whose clock is 1000 s ahead of this machine's, played by node-mavlink. A run sends its poses over four
 // links, with the stamps of the images, of CLOCK_MONOTONIC, of the epoch and of that autopilot: of one frame they must be
-// the same moment, within a millisecond. The autopilot asks for the time as well, and must learn the same clock.
+// the same moment, within a millisecond. The autopilot asks for the time as well, and must learn the same clock. Goes on
+// until that holds: on a busy machine a quick answer takes its time.
 const assert = require('assert');
 const {spawn} = require('child_process');
 const dgram = require('dgram');
@@ -14,7 +15,7 @@ const {loadDialect} = require('./mavlink');
 
 const kAhead_ns = 1000n * 1000000000n;
 const kAllowedMs = 1;
-const kFrames = 90;
+const kFrames = 30;  // in a row
 const kPatienceMs = 60000;
 const kMs_ns = 1000000n;
 
@@ -29,10 +30,8 @@ class Autopilot {
     this.dialect = dialect;
     this.protocol = new MavLinkProtocolV2(1, 1);
     this.sequence = 0;
-    this.stamps = [];       // of the poses, ms
-    this.reset();
-  }
-  reset() {
+    this.stamps = new Map();  // ms, by the number of the frame
+    this.pose_usec = undefined;
     this.roundTrips = [];   // {rtt_ns, offset_ns}: the other clock minus this one
     this.systemTimes = [];
     this.questions = 0;
@@ -67,9 +66,16 @@ class Autopilot {
     assert.strictEqual(packet.header.sysid, 190);
     const message = packet.protocol.data(packet.payload, clazz);
     this.names.add(clazz.MSG_NAME);
-    if (clazz === common.Odometry) this.stamps.push(Number(message.timeUsec) / 1000);
+    if (clazz === common.Odometry) this.pose_usec = message.timeUsec;
+    if (clazz.MSG_NAME === 'DISFLOW_STATUS') this.takeStatus(message);
     if (clazz === common.SystemTime) this.systemTimes.push({message, epochMs: epochMs(), at_ns: monotonic_ns()});
     if (clazz === common.TimeSync) this.takeTime(message);
+  }
+  takeStatus(message) {
+    if (message.timeUsec !== this.pose_usec) return;  // that pose was lost on the way
+    const newest = [...this.stamps.values()].at(-1);
+    this.wentBack = this.wentBack || Number(message.timeUsec) / 1000 <= newest;
+    this.stamps.set(message.frames, Number(message.timeUsec) / 1000);
   }
   takeTime(message) {
     if (message.tc1 === 0n) {
@@ -85,6 +91,7 @@ class Autopilot {
   }
   /** The other clock minus this one by the quickest answer, ms, and by how much that may be wrong. */
   learnt() {
+    assert.ok(this.roundTrips.length > 0, 'questions for the time are answered');
     const best = this.roundTrips.reduce((a, b) => a.rtt_ns < b.rtt_ns ? a : b);
     return {offsetMs: Number(best.offset_ns) / 1e6, boundMs: Number(best.rtt_ns) / 2e6};
   }
@@ -97,23 +104,20 @@ function expectNear(actual, expected, allowed, what) {
   assert.ok(Math.abs(actual - expected) <= allowed, `${what}: ${actual}, expected ${expected} within ${allowed}`);
 }
 
-/** Frames are told by their capture stamps, which the first link carries: the n-th from the end is the n-th everywhere. */
-function checkStamps(links) {
-  const count = Math.min(...Object.values(links).map((link) => link.stamps.length));
-  assert.ok(count >= kFrames / 2, `${count} poses on the autopilot's clock`);
-  const last = (link) => link.stamps.slice(-count);
-  const [capture, monotonic, epoch, autopilot] =
-      [links.capture, links.monotonic, links.epoch, links.autopilot].map(last);
+/** The newest frames that all links have told of. */
+function checkStamps({capture, monotonic, epoch, autopilot}) {
   const distanceMs = epochMs() - Number(monotonic_ns()) / 1e6;
-  for (let i = 0; i < count; ++i) {
-    expectNear(autopilot[i] - monotonic[i], Number(kAhead_ns) / 1e6, kAllowedMs, `frame ${i}, autopilot's clock`);
-    expectNear(epoch[i] - monotonic[i], distanceMs, kAllowedMs, `frame ${i}, epoch`);
-    if (i > 0) assert.ok(autopilot[i] > autopilot[i - 1], 'stamps must increase');
+  const frames = [...autopilot.stamps.keys()].slice(-kFrames);
+  assert.strictEqual(frames.length, kFrames, 'poses on the autopilot\'s clock');
+  const first = frames[0];
+  for (const i of frames) {
+    const onMonotonic = monotonic.stamps.get(i);
+    expectNear(autopilot.stamps.get(i) - onMonotonic, Number(kAhead_ns) / 1e6, kAllowedMs, `frame ${i}, autopilot`);
+    expectNear(epoch.stamps.get(i) - onMonotonic, distanceMs, kAllowedMs, `frame ${i}, epoch`);
+    // A recording is played at its own pace: frame by frame the same time has passed.
+    expectNear(onMonotonic - monotonic.stamps.get(first), capture.stamps.get(i) - capture.stamps.get(first), kAllowedMs,
+               `frame ${i}, pace`);
   }
-  // A recording is played at its own pace: frame by frame the same time has passed.
-  for (let i = 1; i < count; ++i)
-    expectNear(monotonic[i] - monotonic[0], capture[i] - capture[0], 20, `frame ${i}, pace`);
-  return count;
 }
 
 function checkClocks(links) {
@@ -130,7 +134,8 @@ function checkClocks(links) {
   }
   for (const [name, link] of Object.entries(links)) {
     assert.strictEqual(link.questions > 0, name === 'autopilot', `${name} asks for the autopilot's clock`);
-    assert.ok(link.systemTimes.length > 0);
+    assert.ok(!link.wentBack, `${name}: stamps must increase`);
+    assert.ok(link.systemTimes.length > 0, 'SYSTEM_TIME');
     for (const {message, epochMs: nowMs, at_ns} of link.systemTimes) {
       expectNear(Number(message.timeUnixUsec) / 1000, nowMs, 1000, 'SYSTEM_TIME, epoch');
       expectNear(message.timeBootMs, Number((at_ns / kMs_ns) & 0xffffffffn), 1000, 'SYSTEM_TIME, boot');
@@ -151,21 +156,31 @@ async function main() {
   }
   const uris = Object.entries(links).flatMap(
       ([name, link]) => ['--link', `udp://127.0.0.1:${link.socket.address().port}${options[name]}`]);
-  setTimeout(() => {
-    console.error(`no end after ${kPatienceMs} ms`);
-    process.exit(1);
-  }, kPatienceMs).unref();
-  const child = spawn(track[0], [...track.slice(1), '--sensor', `sim:box?noise=clean&frames=${kFrames}`,
-                                 '--rate', 'live', '--headless', ...uris],
+  const child = spawn(track[0], [...track.slice(1), '--sensor', 'sim:box?noise=clean&frames=100000', '--rate', 'live',
+                                 '--headless', ...uris],
                       {stdio: ['ignore', 'inherit', 'inherit']});
+  let running = true;
+  const exited = new Promise((resolve) => child.on('exit', resolve)).finally(() => { running = false; });
   const asking = setInterval(() => Object.values(links).forEach((link) => link.ask()), 20);
-  const status = await new Promise((resolve) => child.on('exit', resolve));
+  const deadline = Date.now() + kPatienceMs;
+  let missing;
+  do {
+    await new Promise((resolve) => setTimeout(resolve, 100));
+    missing = undefined;
+    try {
+      checkStamps(links);
+      checkClocks(links);
+    } catch (error) {
+      missing = error;
+    }
+  } while (missing && running && Date.now() < deadline);
   clearInterval(asking);
-  assert.strictEqual(status, 0);
-  const count = checkStamps(links);
-  checkClocks(links);
+  child.kill('SIGTERM');
+  const status = await exited;
   Object.values(links).forEach((link) => link.close());
-  console.log(`stamps of ${count} frames agree on four clocks`);
+  if (missing) throw missing;
+  assert.strictEqual(status, 0);
+  console.log(`stamps of ${kFrames} frames agree on four clocks`);
 }
 
 main().then(() => process.exit(0), (error) => {
