@@ -26,7 +26,13 @@ void LinkStamps::Play(StampNs capture_ns, const ClockReading& now) noexcept {
   if (source_ != Source::kRecording) return;
   // Stamps of files may be any number.
   std::int64_t offset_ns = 0;
+  std::int64_t step_ns = 0;
   if (__builtin_sub_overflow(now.monotonic_ns, capture_ns, &offset_ns)) return;
+  if (__builtin_sub_overflow(capture_ns, played_ns_, &step_ns) || step_ns < -kLongestStep_ns ||
+      step_ns > kLongestStep_ns) {
+    played_ = false;
+  }
+  played_ns_ = capture_ns;
   played_offset_ns_ = played_ ? std::min(played_offset_ns_, offset_ns) : offset_ns;
   played_ = true;
 }

@@ -22,6 +22,9 @@ struct ClockReading {
 class LinkStamps {
  public:
   using Stamps = hal::LinkAddress::Stamps;
+  /// Stamps of a recording that lie farther apart are no pause of the camera: the recording begins
+  /// anew there, as for who plays it (StampPacer).
+  static constexpr std::int64_t kLongestStep_ns = 5'000'000'000;
 
   LinkStamps(Stamps wanted, const hal::SensorInfo& sensor) noexcept
       : wanted_(wanted), source_(SourceOf(sensor)) {}
@@ -49,6 +52,7 @@ class LinkStamps {
   Stamps wanted_;
   Source source_;
   bool played_ = false;
+  StampNs played_ns_ = 0;              ///< The last frame's.
   std::int64_t played_offset_ns_ = 0;  ///< CLOCK_MONOTONIC minus the recording's clock.
 };
 

@@ -94,6 +94,22 @@ TEST(LinkStamps, OfARecording_AreAsIfCapturedNowAndNeverLater) {
   EXPECT_EQ(stamps.Of(9 * kSecond_ns, now, {}), now.monotonic_ns - 5000);
 }
 
+TEST(LinkStamps, RecordingThatJumps_BeginsAnewThere) {
+  for (const StampNs jump_ns : {StampNs{-1000 * kSecond_ns}, StampNs{1'700'000'000 * kSecond_ns}}) {
+    LinkStamps stamps(Stamps::kMonotonic, hal::SensorInfo{});
+    ClockReading now = kNow;
+    stamps.Play(2000 * kSecond_ns, now);
+    now.monotonic_ns += kSecond_ns;
+    const StampNs beyond_ns = 2000 * kSecond_ns + jump_ns;
+    stamps.Play(beyond_ns, now);
+    EXPECT_EQ(stamps.Of(beyond_ns, now, {}), now.monotonic_ns);
+    // And back, as after one wrong stamp.
+    now.monotonic_ns += kSecond_ns;
+    stamps.Play(2002 * kSecond_ns, now);
+    EXPECT_EQ(stamps.Of(2002 * kSecond_ns, now, {}), now.monotonic_ns);
+  }
+}
+
 TEST(LinkStamps, AutopilotNotHeard_ThereIsNoStamp) {
   const LinkStamps stamps(Stamps::kAutopilot, Camera());
   EXPECT_TRUE(stamps.wants_autopilot());
