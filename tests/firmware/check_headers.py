@@ -11,7 +11,7 @@ C_HEADERS = {'stddef.h', 'stdint.h'}
 FREESTANDING = {'atomic', 'bit', 'cfloat', 'climits', 'compare', 'concepts', 'cstdarg', 'cstddef', 'cstdint', 'initializer_list',
                 'limits', 'new', 'source_location', 'type_traits', 'version'}
 # Not freestanding by the standard, but what is used of them needs neither heap, exceptions nor an operating system.
-TEMPLATES = {'algorithm', 'array', 'cassert', 'cmath', 'cstring', 'iterator', 'span', 'string_view', 'utility'}
+TEMPLATES = {'algorithm', 'array', 'cassert', 'cmath', 'cstring', 'iterator', 'numbers', 'span', 'string_view', 'utility'}
 EIGEN = {'Eigen/Cholesky', 'Eigen/Core', 'Eigen/Eigenvalues', 'Eigen/Geometry', 'Eigen/Jacobi'}
 ALLOWED = {
     'core': FREESTANDING | TEMPLATES | EIGEN | C_HEADERS,

@@ -66,7 +66,7 @@ INSTANTIATE_TEST_SUITE_P(
                 {"--sensor", "replay:/nonexistent/sequence"},
                 3,
                 "/nonexistent/sequence"},
-        Refusal{"LinkUnknown", {"--sensor", kSensor, "--link", "tcp://localhost:1"}, 2, "tcp"},
+        Refusal{"LinkUnknown", {"--sensor", kSensor, "--link", "tls://localhost:1"}, 2, "tls"},
         Refusal{"LinkDeviceMissing",
                 {"--sensor", kSensor, "--link", "serial:///dev/nonexistent"},
                 4,
