@@ -55,5 +55,6 @@ set(page_lock "@PROJECT_SOURCE_DIR@/apps/view/package-lock.json")
 ]])
 set(disflow_bom_file ${PROJECT_BINARY_DIR}/disflow.cdx.json)
 install(CODE "execute_process(COMMAND ${CMAKE_COMMAND} -DSETTINGS=${disflow_bom_settings} -DOUTPUT=${disflow_bom_file}
-  -P ${PROJECT_SOURCE_DIR}/cmake/write_bom.cmake COMMAND_ERROR_IS_FATAL ANY)")
-install(FILES ${disflow_bom_file} DESTINATION ${CMAKE_INSTALL_DOCDIR})
+  -P ${PROJECT_SOURCE_DIR}/cmake/write_bom.cmake COMMAND_ERROR_IS_FATAL ANY)"
+  COMPONENT programs)
+install(FILES ${disflow_bom_file} DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT programs)

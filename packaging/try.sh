@@ -1,24 +1,46 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Installs a package of this project into an empty root and runs it there: packaging/try.sh PACKAGE.deb
+# Installs the packages of this project into an empty root and uses them there: packaging/try.sh FOLDER
 # Packages for another processor are only unpacked, and run under qemu-user.
 set -euo pipefail
-package="$(realpath "$1")"
-architecture="$(dpkg-deb -f "$package" Architecture)"
-root="$(mktemp -d)"
-trap 'rm -rf "$root"' EXIT
+folder="$(realpath "$1")"
+tree="$(realpath "$(dirname "${BASH_SOURCE[0]}")/..")"
+work="$(mktemp -d)"
+trap 'rm -rf "$work"' EXIT
 die() { printf 'package: %s\n' "$*" >&2; exit 1; }
+package_of() { echo "$folder/$1"_*.deb; }
+programs="$(package_of disflow)"
+architecture="$(dpkg-deb -f "$programs" Architecture)"
+multiarch="$(dpkg-architecture -a "$architecture" -q DEB_HOST_MULTIARCH 2>/dev/null)"
+native=
+[ "$architecture" != "$(dpkg --print-architecture)" ] || native=yes
 
-files="$(dpkg-deb --fsys-tarfile "$package" | tar -t)"
-for file in ./usr/bin/disflow_track ./etc/disflow/track.toml ./lib/systemd/system/disflow-track.service \
-  ./usr/include/disflow/tracker.h ./usr/lib/cmake/disflow/disflow-config.cmake ./usr/share/doc/disflow/deploy.md ./usr/share/doc/disflow/disflow.cdx.json \
-  ./usr/include/disflow.h ./usr/share/pkgconfig/disflow.pc ./usr/share/man/man1/disflow_track.1.gz \
-  ./usr/share/bash-completion/completions/disflow_track; do
-  grep -qx "$file" <<<"$files" || die "$file is missing in $package"
-done
-[[ "$(dpkg-deb -f "$package" Depends)" == *libc6* ]] || die "$package has no dependencies"
+# has PACKAGE FILE...: what it must hold.
+has() {
+  local package files file
+  package="$(package_of "$1")"
+  shift
+  files="$(dpkg-deb --fsys-tarfile "$package" | tar -t)"
+  for file in "$@"; do
+    grep -qx "./$file" <<<"$files" || die "$file is missing in $package"
+  done
+}
+has disflow usr/bin/disflow_track etc/disflow/track.toml lib/systemd/system/disflow-track.service usr/share/doc/disflow/disflow.cdx.json \
+  usr/share/man/man1/disflow_track.1.gz usr/share/bash-completion/completions/disflow_track
+has libdisflow0.1 "usr/lib/$multiarch/libdisflow.so.0.1"
+has libdisflow-dev usr/include/disflow/tracker.h usr/include/disflow.h "usr/lib/$multiarch/libdisflow.so" "usr/lib/$multiarch/libdisflow_core.a" \
+  "usr/lib/$multiarch/cmake/disflow/disflow-config.cmake" "usr/lib/$multiarch/pkgconfig/disflow.pc"
+has disflow-doc usr/share/doc/disflow/docs/deploy.md usr/share/doc/disflow/docs/images/live-view.png usr/share/doc/disflow/docs/tutorials/cpp.md
+[ -z "$native" ] || has python3-disflow usr/lib/python3/dist-packages/disflow/__init__.py
+[[ "$(dpkg-deb -f "$programs" Depends)" == *libc6* ]] || die "$programs has no dependencies"
 
-lintian --allow-root --fail-on error,warning "$package" || die "lintian finds faults in $package"
+lintian --allow-root --fail-on error,warning "$folder"/*.deb || die "lintian finds faults"
+
+# The shared library names itself as its package does, and needs nothing but C's library.
+dpkg-deb -x "$(package_of libdisflow0.1)" "$work/library"
+dynamic="$(readelf -d "$work/library/usr/lib/$multiarch/libdisflow.so.0.1")"
+grep -q 'SONAME.*\[libdisflow.so.0.1\]' <<<"$dynamic" || die "the SONAME is not libdisflow.so.0.1: $dynamic"
+! grep NEEDED <<<"$dynamic" | grep -vE '\[(libc\.so\.6|libm\.so\.6|libgcc_s\.so\.1|ld-linux[^]]*)\]' || die "the library needs more than C's"
 
 # What the package for each processor must have; docs/deploy.md says what the ARM presets leave out and why.
 features() {
@@ -41,29 +63,53 @@ try_track() {
   [ $status -eq 2 ] || die "the settings as installed end with $status, 2 (no sensor) was expected"
 }
 
-if [ "$architecture" = "$(dpkg --print-architecture)" ] && [ "$(id -u)" -eq 0 ] && command -v mmdebstrap >/dev/null; then
+# try_library: a C program, compiled by what pkg-config says of the installed package, runs with the shared library.
+try_library() {
+  local root="$1" flags
+  flags="$(PKG_CONFIG_LIBDIR="$root/usr/lib/$multiarch/pkgconfig" pkg-config --cflags --libs disflow)" || die "pkg-config does not find disflow"
+  # shellcheck disable=SC2086  # several flags
+  gcc -std=c99 -O2 "$tree/docs/examples/track.c" $flags -o "$root/tmp/track" || die "a C program cannot be compiled"
+  readelf -d "$root/tmp/track" | grep -q 'NEEDED.*libdisflow.so.0.1' || die "the C program does not use the shared library"
+  chroot "$root" /tmp/track | grep 'surface: ok' || die "the C program does not track"
+}
+
+# The Python module, with Debian's numpy.
+try_python() {
+  chroot "$1" /usr/bin/python3 -c '
+import disflow, numpy
+tracker = disflow.Tracker()
+print("python:", disflow.__version__, type(tracker).__name__)' || die "the Python module does not start"
+}
+
+if [ -n "$native" ] && [ "$(id -u)" -eq 0 ] && command -v mmdebstrap >/dev/null; then
   suite="$(sed -n 's/^VERSION_CODENAME=//p' /etc/os-release)"
-  # What the package says it needs, and nothing else.
-  needed="$(dpkg-deb -f "$package" Depends | tr ',' '\n' | awk '{print $1}' | paste -s -d ,)"
-  mmdebstrap --quiet --variant=essential --include="$needed" "$suite" "$root/clean" >/dev/null 2>"$root/log" || {
-    tail -n 20 "$root/log" >&2
+  root="$work/clean"
+  # What the packages say they need, and nothing else.
+  needed="$(for package in "$folder"/*.deb; do
+    dpkg-deb -f "$package" Depends | tr ',' '\n' | awk 'NF && $1 !~ /^libdisflow/ {print $1}'
+  done | sort -u | paste -s -d ,)"
+  mmdebstrap --quiet --variant=essential --include="$needed" "$suite" "$root" >/dev/null 2>"$work/log" || {
+    tail -n 20 "$work/log" >&2
     die "no empty $suite root could be made"
   }
-  cp "$package" "$root/clean/tmp/disflow.deb"
-  chroot "$root/clean" dpkg --install /tmp/disflow.deb >/dev/null || die "it cannot be installed into an empty $suite"
+  cp "$folder"/*.deb "$root/tmp/"
+  chroot "$root" sh -c 'dpkg --install /tmp/*.deb' >/dev/null || die "they cannot be installed into an empty $suite"
   config=/etc/disflow/track.toml
-  try_track chroot "$root/clean" /usr/bin/disflow_track
-  chroot "$root/clean" dpkg --remove disflow >/dev/null
-  [ ! -e "$root/clean/usr/bin/disflow_track" ] || die "it leaves programs behind when it is removed"
-  [ -e "$root/clean/etc/disflow/track.toml" ] || die "removing it takes the settings away"
-  echo "$(basename "$package"): installed, run and removed in an empty $suite root"
+  try_track chroot "$root" /usr/bin/disflow_track
+  try_library "$root"
+  try_python "$root"
+  chroot "$root" dpkg --remove disflow python3-disflow libdisflow-dev libdisflow0.1 disflow-doc >/dev/null
+  [ ! -e "$root/usr/bin/disflow_track" ] || die "it leaves programs behind when it is removed"
+  [ -e "$root/etc/disflow/track.toml" ] || die "removing it takes the settings away"
+  installed=("$folder"/*.deb)
+  echo "${installed[*]##*/}: installed, used and removed in an empty $suite root"
 else
-  dpkg-deb -x "$package" "$root/tree"
-  config="$root/tree/etc/disflow/track.toml"
+  dpkg-deb -x "$programs" "$work/tree"
+  config="$work/tree/etc/disflow/track.toml"
   case "$architecture" in
-    arm64) try_track qemu-aarch64 "$root/tree/usr/bin/disflow_track" ;;
-    armhf) try_track qemu-arm -L "${DISFLOW_ARMHF_ROOT:-/}" "$root/tree/usr/bin/disflow_track" ;;
-    *) try_track "$root/tree/usr/bin/disflow_track" ;;
+    arm64) try_track qemu-aarch64 "$work/tree/usr/bin/disflow_track" ;;
+    armhf) try_track qemu-arm -L "${DISFLOW_ARMHF_ROOT:-/}" "$work/tree/usr/bin/disflow_track" ;;
+    *) try_track "$work/tree/usr/bin/disflow_track" ;;
   esac
-  echo "$(basename "$package"): unpacked and run"
+  echo "$(basename "$programs"): unpacked and run"
 fi

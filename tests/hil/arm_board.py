@@ -44,7 +44,7 @@ def difference(a, b):
 
 def _packaged(program):
     """The program from the Debian package, if one was made beside it."""
-    packages = glob.glob(os.path.join(setting.arm_programs, "..", "package", "*_arm64.deb"))
+    packages = glob.glob(os.path.join(setting.arm_programs, "..", "package", "disflow_*_arm64.deb"))
     if not packages:
         return program
     root = os.path.join(setting.folder, "arm_root")

@@ -158,7 +158,7 @@ def _write(root, name, content, mode=0o644):
 class Service(GuestOutput, unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        packages = glob.glob(os.path.join(setting.programs, "..", "package", "*_amd64.deb"))
+        packages = glob.glob(os.path.join(setting.programs, "..", "package", "disflow_*_amd64.deb"))
         if not packages:
             raise unittest.SkipTest("no package for amd64; ./dev package makes it")
         for program in ["mmdebstrap", "mke2fs"]:

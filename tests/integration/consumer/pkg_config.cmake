@@ -13,7 +13,11 @@ endfunction()
 
 file(REMOVE_RECURSE ${WORK})
 run(${CMAKE_COMMAND} --install ${DISFLOW_BUILD} --prefix ${WORK}/prefix)
-set(ENV{PKG_CONFIG_PATH} ${WORK}/prefix/share/pkgconfig)
+file(GLOB_RECURSE described ${WORK}/prefix/*/disflow.pc)
+cmake_path(GET described PARENT_PATH folder)
+set(ENV{PKG_CONFIG_PATH} ${folder})
+# If there is a shared library, it is taken.
+set(ENV{LD_LIBRARY_PATH} ${folder}/..)
 run(${PKG_CONFIG} --modversion disflow)
 if(NOT output STREQUAL VERSION)
   message(FATAL_ERROR "pkg-config says version ${output}, the project's is ${VERSION}")
