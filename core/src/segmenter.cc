@@ -3,19 +3,6 @@
 
 namespace disflow {
 
-bool BelongsToObject(const SurfaceVote& vote) noexcept {
-  return vote.probed == 0 || 10 * vote.explained >= 3 * vote.probed;
-}
-
-bool BelongsToMaskedObject(const SurfaceVote& vote, int pixels) noexcept {
-  if (vote.masked == 0) return false;
-  const bool mostly_outside = 2 * vote.masked < pixels;
-  constexpr int kMinProbed = 4;
-  if (vote.probed < kMinProbed) return !mostly_outside;
-  // Where the mask has most of it, only a model that plainly contradicts keeps it out.
-  return 10 * vote.explained >= (mostly_outside ? 3 : 1) * vote.probed;
-}
-
 PixelBox RegionOfInterest(const DepthFrame& frame, const SegmenterConfig& config) noexcept {
   PixelBox box{0, 0, frame.depth.width_px, frame.depth.height_px};
   if (config.roi_width_px > 0 && config.roi_height_px > 0) {

@@ -158,6 +158,7 @@ class Tracker {
 
   typename Segmenter<Limits>::Mask object_mask_;
   MaskOverrun<typename Segmenter<Limits>::Mask> overrun_;
+  ObjectContact contact_;
   StageScratch<Segmenter<Limits>, SurfaceSampler<Limits>, Registration<Limits>> scratch_;
   typename SurfaceSampler<Limits>::Samples samples_;
   typename Registration<Limits>::Edges edges_;

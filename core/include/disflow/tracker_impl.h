@@ -3,6 +3,7 @@
 
 #include "disflow/depth/edge_sampler.h"
 #include "disflow/depth/seen_space_impl.h"
+#include "disflow/depth/segmenter_choice_impl.h"
 #include "disflow/depth/segmenter_impl.h"
 #include "disflow/field/distance_field_fusion.h"
 #include "disflow/field/distance_field_training.h"
@@ -169,13 +170,16 @@ Status Tracker<Limits>::Observe(const DepthFrame& frame, Estimate& estimate,
              T_oc_,
              field_.bounds_min_m(),
              field_.bounds_max_m(),
+             contact_,
              config_.segmenter.mask_delay_s * ImageSpeed(frame)};
   }
   const auto explains = [this](const Vec3& x_c) {
     return IsNearSurface(field_, T_oc_ * x_c, config_.segmenter.explained_m);
   };
-  const Status segmented = scratch_.template Begin<Segmenter<Limits>>().Segment(
-      frame, config_.segmenter, prior, explains, object_mask_, overrun_, estimate.rejected);
+  auto& segmenter = scratch_.template Begin<Segmenter<Limits>>();
+  const Status segmented = segmenter.Segment(frame, config_.segmenter, prior, explains,
+                                             object_mask_, overrun_, estimate.rejected);
+  contact_ = segmenter.contact();
   if (segmented != Status::kOk) return segmented;
   const ErodedMask interior(object_mask_, config_.sampler.border_px);
   stopwatch.Mark(Stage::kSegment);

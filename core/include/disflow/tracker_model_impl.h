@@ -51,7 +51,8 @@ void Tracker<Limits>::FuseObservations(const DepthFrame& frame, Estimate& estima
     const auto index = (static_cast<std::int64_t>(i) * samples_.size() + offset) / wanted;
     SurfaceSample observation = samples_[std::min(static_cast<int>(index), samples_.size() - 1)];
     const PixelAt px(frame.camera.Project(observation.position_m));
-    const bool undecided = overrun_.IsReachedFrom(px.u, px.v, depth, frame.camera);
+    const bool undecided =
+        contact_.merged || overrun_.IsReachedFrom(px.u, px.v, depth, frame.camera);
     observation.position_m = T_oc_ * observation.position_m;
     observation.normal = R_oc * observation.normal;
     if (IsForeign(observation.position_m)) {

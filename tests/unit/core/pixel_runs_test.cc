@@ -17,14 +17,16 @@ using testing::Covers;
 using testing::DepthScene;
 constexpr float kJump = 0.02F;
 constexpr int kFewest_px = 30;
+constexpr int kBridged_px = 3;
 
 template <int kMaxRuns>
 class Surfaces {
  public:
   explicit Surfaces(const DepthScene& scene, const PixelBox& box = DepthScene::image())
       : runs_(std::make_unique<Runs>()) {
-    runs_->Build(DepthReader(scene.frame().depth, 0.1F, 10.0F), box, kJump, kFewest_px,
-                 [](int, int, int, float*) {});
+    runs_->Build(
+        DepthReader(scene.frame().depth, 0.1F, 10.0F), box, kJump, kFewest_px,
+        [](int, int, int, float*) {}, kBridged_px);
   }
   [[nodiscard]] const auto& operator*() const { return *runs_; }
   [[nodiscard]] const auto* operator->() const { return runs_.get(); }

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "depth_scene.h"
+#include "disflow/depth/segmenter_choice_impl.h"
 #include "disflow/depth/segmenter_impl.h"
 #include "disflow/limits.h"
 
@@ -250,6 +253,64 @@ TEST_F(LaterFrame, ThingFarFromTheModel_IsNotTheObject) {
   scene.Rectangle(kOther, 0.4F);
   ASSERT_EQ(Segment(scene), Status::kOk);
   ExpectExactly(kObject);
+}
+
+constexpr float kRise_px = 12.0F;
+
+/// A board that lies in a heap, which rises about it and goes on out of the image, not as a plane.
+/// @param slope Of the heap beside the board, m/m.
+DepthScene ObjectInAHeap(float slope = 2.0F) {
+  constexpr float kPixel_m = kObject_m / DepthScene::kFocal_px;
+  DepthScene scene(2.2F);
+  scene.Draw(DepthScene::image(), [slope](int u, int v) {
+    const int beside_px = std::max(
+        {kObject.u_min - u, u - kObject.u_max + 1, kObject.v_min - v, v - kObject.v_max + 1, 0});
+    const float risen_px = std::min(static_cast<float>(beside_px), kRise_px);
+    const float waves =
+        std::sin(static_cast<float>(u) / 15.0F) * std::sin(static_cast<float>(v) / 13.0F);
+    return kObject_m - slope * kPixel_m * risen_px + 0.02F * waves * (risen_px / kRise_px);
+  });
+  return scene;
+}
+
+TEST_F(FirstFrame, SeedOnAThingInAHeap_ChoosesTheThingAlone) {
+  config_.seed_u_px = 80;
+  config_.seed_v_px = 50;
+  ASSERT_EQ(Segment(ObjectInAHeap()), Status::kOk);
+  EXPECT_GT(Share({64, 34, 96, 66}), 0.95);
+  EXPECT_LT(object_->count(), 1.1 * kObject.width() * kObject.height());
+  EXPECT_TRUE(segmenter_->contact().touches);
+}
+
+TEST_F(FirstFrame, ThingInTheAir_TouchesNothing) {
+  ASSERT_EQ(Segment(ObjectOverATable()), Status::kOk);
+  EXPECT_FALSE(segmenter_->contact().touches);
+}
+
+TEST_F(LaterFrame, ObjectInAHeap_IsCutOffAndDecided) {
+  for (const bool touched_before : {false, true}) {
+    prior_.contact.touches = touched_before;
+    ASSERT_EQ(Segment(ObjectInAHeap()), Status::kOk);
+    EXPECT_GT(Share({64, 34, 96, 66}), 0.95);
+    EXPECT_LT(object_->count(), 1.1 * kObject.width() * kObject.height());
+    EXPECT_TRUE(segmenter_->contact().touches);
+    EXPECT_FALSE(segmenter_->contact().merged);
+  }
+}
+
+TEST_F(LaterFrame, ObjectThatPassesSmoothlyIntoAHeap_IsWhatTheModelKnowsAndMerged) {
+  prior_.contact.touches = true;
+  ASSERT_EQ(Segment(ObjectInAHeap(0.1F)), Status::kOk);
+  EXPECT_GT(Share(kObject), 0.95);
+  EXPECT_LT(object_->count(), 2 * kObject.width() * kObject.height());
+  EXPECT_TRUE(segmenter_->contact().merged);
+}
+
+TEST_F(LaterFrame, ObjectThatLeftItsTable_TouchesNothingAnyMore) {
+  prior_.contact.touches = true;
+  ASSERT_EQ(Segment(ObjectOverATable()), Status::kOk);
+  ExpectExactly(kObject);
+  EXPECT_FALSE(segmenter_->contact().touches);
 }
 
 TEST_F(LaterFrame, ThingBesideTheModelAtAnotherDepth_IsNotTheObject) {

@@ -5,6 +5,12 @@
 
 namespace disflow {
 
+/// How an object touches what is around it.
+struct ObjectContact {
+  bool touches = false;  ///< It stands on something or leans against it.
+  bool merged = false;   ///< And could not be told from that: what is new may not be its own.
+};
+
 /// What is known of the object before a frame is segmented: its predicted pose and extent.
 struct ModelPrior {
   bool known = false;
@@ -12,6 +18,7 @@ struct ModelPrior {
   PoseObjectFromCamera T_oc;      ///< Predicted.
   Vec3 box_min_m = Vec3::Zero();  ///< Axis-aligned bounds of the model, object frame.
   Vec3 box_max_m = Vec3::Zero();
+  ObjectContact contact;  ///< In the last frame.
   /// How far the object may have moved in the image since its mask was made.
   float motion_px = 0.0F;
 };

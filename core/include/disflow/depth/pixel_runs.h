@@ -44,10 +44,12 @@ class PixelRuns {
   /// @param gate gate(v, u_begin, u_end, depth_m): sets to 0 the depths of a row's pixels that
   /// cannot belong to the object.
   /// @param fewest_pixels Smaller components are not remembered.
+  /// @param bridged_px Gaps of so many pixels in a row are gone across.
   template <class Gate>
   void Build(const DepthReader& depth, const PixelBox& box, float jump_ratio, int fewest_pixels,
-             Gate&& gate) noexcept {
+             Gate&& gate, int bridged_px) noexcept {
     count_ = 0;
+    bridged_px_ = bridged_px;
     dropped_ = 0;
     components_.clear();
     int above_begin = 0;
@@ -101,9 +103,6 @@ class PixelRuns {
 
  private:
   using Row = std::array<float, static_cast<std::size_t>(kMaxWidth)>;
-  // Sensors lose single pixels; a run goes on across such gaps so that holes do not count as the
-  // object's outline.
-  static constexpr int kBridgedGapPx = 3;
 
   [[nodiscard]] Row& row_m() noexcept { return rows_m_[current_]; }
   [[nodiscard]] PixelRun& run(int i) noexcept { return runs_[static_cast<std::size_t>(i)]; }
@@ -154,7 +153,7 @@ class PixelRuns {
     ForEachChange(box.width(), [&](int i) {
       if (i > 0 && depth_m(i - 1) > 0.0F) last_valid = i - 1;
       if (depth_m(i) <= 0.0F) return;
-      const bool joins = begin >= 0 && i - last_valid <= kBridgedGapPx + 1 &&
+      const bool joins = begin >= 0 && i - last_valid <= bridged_px_ + 1 &&
                          Continuous(depth_m(i), depth_m(last_valid), jump_ratio);
       if (joins) return;
       if (begin >= 0) Append(v, box.u_min + begin, box.u_min + last_valid + 1);
@@ -254,6 +253,7 @@ class PixelRuns {
   std::size_t current_ = 0;
   int count_ = 0;
   int dropped_ = 0;
+  int bridged_px_ = 0;
 };
 
 }  // namespace disflow

@@ -13,24 +13,13 @@
 #include "disflow/depth/pixel_mask.h"
 #include "disflow/depth/pixel_runs.h"
 #include "disflow/depth/plane_removal.h"
+#include "disflow/depth/surface_vote.h"
+#include "disflow/depth/valley_cut.h"
 #include "disflow/estimate.h"
 
 namespace disflow {
 
-/// What mask and model say of one connected surface.
-struct SurfaceVote {
-  bool chosen = false;
-  int masked = 0;     ///< Its pixels within the mask.
-  int probed = 0;     ///< Its points that the model was asked about.
-  int explained = 0;  ///< Of these, those near known surface.
-};
-
-/// Whether a surface is the object's, once there is a model and without a mask.
-[[nodiscard]] bool BelongsToObject(const SurfaceVote& vote) noexcept;
-
-/// The same under a mask; the model was only asked about what the mask covers.
-/// @param pixels Of the surface, the part outside of the mask included.
-[[nodiscard]] bool BelongsToMaskedObject(const SurfaceVote& vote, int pixels) noexcept;
+class ModelGate;
 
 /// The part of the image that the settings leave.
 [[nodiscard]] PixelBox RegionOfInterest(const DepthFrame& frame,
@@ -59,6 +48,7 @@ class Segmenter {
                                MaskOverrun<Mask>& overrun, Counters& counters) noexcept {
     object.Start(frame.depth.width_px, frame.depth.height_px);
     overrun.Start(frame.depth.width_px, frame.depth.height_px);
+    contact_ = {};
     if (frame.mask.given()) {
       const PixelBox image{0, 0, frame.mask.width_px, frame.mask.height_px};
       CopyMask(frame.mask, image, object);
@@ -68,8 +58,12 @@ class Segmenter {
     if (!frame.mask.given() && config.grow_region == 0) {
       TakeAll(frame, config, object);
     } else {
-      BuildSurfaces(frame, config, prior, object, counters);
-      ChooseSurfaces(frame, config, prior, explains, object);
+      if (frame.mask.given()) {
+        Look({}, frame, config, prior, explains, object);
+      } else {
+        LookAround(frame, config, prior, explains, object);
+      }
+      counters.runs_dropped += static_cast<std::uint32_t>(surfaces_.dropped());
       if (!frame.mask.given() || !IsExact(object)) Redraw(frame, prior, explains, object);
     }
     if (frame.mask.given()) {
@@ -79,6 +73,9 @@ class Segmenter {
     object.Finish();
     return object.count() > 0 ? Status::kOk : Status::kNoValidDepth;
   }
+
+  /// How the object of the last image touched what is around it; nothing, under a mask.
+  [[nodiscard]] const ObjectContact& contact() const noexcept { return contact_; }
 
  private:
   using Surfaces = PixelRuns<Limits::kMaxRuns, Limits::kMaxImageWidth>;
@@ -99,71 +96,53 @@ class Segmenter {
     for (int v = box.v_min; v < box.v_max; ++v) object.row(v).SetRun(box.u_min, box.u_max);
   }
 
+  /// How surfaces are looked for.
+  struct Manner {
+    float margins = 1.0F;  ///< So many margins about the predicted model.
+    bool cut = false;      ///< Surfaces end where they fold towards the camera.
+  };
+
+  /// Cuts the image into surfaces and chooses among them.
+  template <class Explains>
+  void Look(const Manner& manner, const DepthFrame& frame, const SegmenterConfig& config,
+            const ModelPrior& prior, Explains& explains, const Mask& mask) noexcept;
+
+  /// The same without a mask, in the manner that the object's surroundings ask for.
+  template <class Explains>
+  void LookAround(const DepthFrame& frame, const SegmenterConfig& config, const ModelPrior& prior,
+                  Explains& explains, const Mask& mask) noexcept;
+
   /// Connected surfaces of what could be the object.
   void BuildSurfaces(const DepthFrame& frame, const SegmenterConfig& config,
-                     const ModelPrior& prior, const Mask& mask, Counters& counters) noexcept;
+                     const ModelPrior& prior, const Mask& mask) noexcept;
+  void BuildFirstSurfaces(const DepthFrame& frame, const SegmenterConfig& config,
+                          const DepthReader& depth) noexcept;
+  template <class Gate>
+  void Connect(const DepthReader& depth, const SegmenterConfig& config, int fewest_pixels,
+               const Gate& gate) noexcept;
+
+  [[nodiscard]] ModelGate GateOf(const DepthFrame& frame, const SegmenterConfig& config,
+                                 const ModelPrior& prior) const noexcept;
+
+  /// Counts where surfaces end for no other reason than that the object cannot be beyond.
+  void FindEnds(const DepthFrame& frame, const SegmenterConfig& config,
+                const ModelPrior& prior) noexcept;
+
+  /// Whether a surface that may be the object's goes on where the object cannot be.
+  [[nodiscard]] bool ObjectGoesOn() noexcept;
 
   template <class Explains>
   void ChooseSurfaces(const DepthFrame& frame, const SegmenterConfig& config,
-                      const ModelPrior& prior, Explains& explains, const Mask& mask) noexcept {
-    votes_ = {};
-    const int count = surfaces_.components();
-    if (frame.mask.given()) {
-      ChooseMasked(frame, config, prior, explains, mask);
-      return;
-    }
-    if (!prior.known) {
-      const int first = ChooseFirst(frame, config);
-      if (first < count) vote(first).chosen = true;
-      return;
-    }
-    // A single surface needs no asking.
-    if (count != 1 && !prior.doubtful) {
-      const DepthReader depth(frame.depth, config.min_range_m, config.max_range_m);
-      surfaces_.ForEachRun([&](int c, const PixelRun& run) {
-        if (c != Surfaces::kNoComponent && run.v % kProbeStepPx == 0)
-          Probe(depth, frame.camera, explains, run, vote(c));
-      });
-    }
-    int largest = 0;
-    bool any = false;
-    for (int c = 0; c < count; ++c) {
-      vote(c).chosen = !prior.doubtful && BelongsToObject(vote(c));
-      any = any || vote(c).chosen;
-      if (surfaces_.component(c).pixels > surfaces_.component(largest).pixels) largest = c;
-    }
-    // The prediction is far off.
-    if (!any && count > 0) vote(largest).chosen = true;
-  }
+                      const ModelPrior& prior, Explains& explains, const Mask& mask) noexcept;
+
+  /// The largest surface that does not go on where the object cannot be, or the largest of all.
+  [[nodiscard]] int LargestOfItsOwn() noexcept;
 
   /// Under a mask. What the mask covers of a surface counts, however far it goes on outside: an
   /// object that touches its table is one surface with it.
   template <class Explains>
   void ChooseMasked(const DepthFrame& frame, const SegmenterConfig& config, const ModelPrior& prior,
-                    Explains& explains, const Mask& mask) noexcept {
-    const DepthReader depth(frame.depth, config.min_range_m, config.max_range_m);
-    surfaces_.ForEachRun([&](int c, const PixelRun& run) {
-      if (c == Surfaces::kNoComponent) return;
-      vote(c).masked += mask.row(run.v).CountRun(run.u_begin, run.u_end);
-      if (prior.known && run.v % kProbeStepPx == 0)
-        ProbeMasked(depth, frame.camera, explains, run, mask, vote(c));
-    });
-    const int count = surfaces_.components();
-    int most = 0;
-    int all_pixels = 0;
-    int chosen_pixels = 0;
-    for (int c = 0; c < count; ++c) {
-      SurfaceVote& v = vote(c);
-      v.chosen = BelongsToMaskedObject(v, surfaces_.component(c).pixels);
-      all_pixels += v.masked;
-      if (v.chosen) chosen_pixels += v.masked;
-      if (v.masked > vote(most).masked) most = c;
-    }
-    // Next to nothing of what the mask covers: the prediction is far off, or the object is one
-    // surface with what it stands on and there is no model yet.
-    constexpr int kMinPercent = 20;
-    if (count > 0 && 100 * chosen_pixels < kMinPercent * all_pixels) vote(most).chosen = true;
-  }
+                    Explains& explains, const Mask& mask) noexcept;
 
   /// Before a model exists and without a mask: what lies under the seed pixel, or the nearest.
   [[nodiscard]] int ChooseFirst(const DepthFrame& frame,
@@ -223,6 +202,11 @@ class Segmenter {
     return votes_[static_cast<std::size_t>(component)];
   }
 
+  /// An object that moves otherwise than predicted reaches out of the margin about it, but not as
+  /// far again.
+  static constexpr float kFarMargins = 2.0F;
+  /// Sensors lose single pixels; holes shall not count as the object's outline.
+  static constexpr int kBridgedGapPx = 3;
   static constexpr int kProbeStepPx = 8;
   static constexpr int kClosingPx = 2;
   static constexpr float kOutsidePx = 0.5F;
@@ -231,8 +215,11 @@ class Segmenter {
 
   Surfaces surfaces_;
   PlaneRemoval planes_;
+  ValleyCut<Limits::kMaxImageWidth> valleys_;
   MaskBand<Mask> band_;
   PixelBox box_;
+  Manner manner_;
+  ObjectContact contact_;
   std::array<SurfaceVote, static_cast<std::size_t>(Surfaces::kMaxComponents)> votes_;
 };
 

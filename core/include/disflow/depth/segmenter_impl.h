@@ -5,6 +5,7 @@
 
 #include "disflow/depth/model_gate.h"
 #include "disflow/depth/segmenter.h"
+#include "disflow/depth/valley_cut_impl.h"
 
 /// @file
 /// Definitions of Segmenter's members that cut the image into surfaces and draw those chosen;
@@ -14,61 +15,75 @@ namespace disflow {
 
 template <class Limits>
 void Segmenter<Limits>::BuildSurfaces(const DepthFrame& frame, const SegmenterConfig& config,
-                                      const ModelPrior& prior, const Mask& mask,
-                                      Counters& counters) noexcept {
+                                      const ModelPrior& prior, const Mask& mask) noexcept {
   const DepthReader depth(frame.depth, config.min_range_m, config.max_range_m);
   const bool masked = frame.mask.given();
-  if (prior.known) {
-    const float factor = masked ? kMaskMarginFactor : 1.0F;
-    const float margin_m =
-        factor * config.model_margin_m + (prior.doubtful ? config.lost_margin_m : 0.0F);
-    const ModelGate gate(frame.camera, prior, margin_m);
+  planes_.Clear();
+  valleys_.Clear();
+  if (!prior.known && !masked) {
+    BuildFirstSurfaces(frame, config, depth);
+  } else if (!prior.known) {
+    box_ = band_.BoxThatMatters(mask);
+    Connect(depth, config, kMinPixels, [](int, int, int, float*) {});
+  } else {
+    const ModelGate gate = GateOf(frame, config, prior);
     box_ = gate.SearchBox(config.min_range_m, {0, 0, frame.depth.width_px, frame.depth.height_px});
-    if (masked) box_ = Common(box_, band_.BoxThatMatters(mask));
-    planes_.Clear();
-    if (!masked) {
+    if (masked) {
+      box_ = Common(box_, band_.BoxThatMatters(mask));
+    } else {
       planes_.Find(depth, box_, [&](int u, int v, float depth_m) {
         return !gate.Accepts(
             frame.camera.BackProject(static_cast<float>(u), static_cast<float>(v), depth_m));
       });
     }
-    surfaces_.Build(depth, box_, config.depth_jump_ratio, kMinPixels,
-                    [&](int v, int u_begin, int u_end, float* depth_m) {
-                      gate(v, u_begin, u_end, depth_m);
-                      planes_(v, u_begin, u_end, depth_m);
-                    });
-  } else if (masked) {
-    box_ = band_.BoxThatMatters(mask);
-    surfaces_.Build(depth, box_, config.depth_jump_ratio, kMinPixels, [](int, int, int, float*) {});
-  } else {
-    box_ = RegionOfInterest(frame, config);
-    const int fewest_pixels = std::max(64, box_.width() * box_.height() / 2000);
-    planes_.Find(depth, Surroundings(box_, frame), [](int, int, float) { return true; });
-    surfaces_.Build(depth, box_, config.depth_jump_ratio, fewest_pixels, planes_);
-    if (surfaces_.components() == 0) {  // nothing but planes: one of them is the object's own
-      planes_.Clear();
-      surfaces_.Build(depth, box_, config.depth_jump_ratio, fewest_pixels, planes_);
-    }
+    if (manner_.cut)
+      valleys_.Start(depth, frame.camera, box_, prior.T_oc.Inverse().translation().z());
+    Connect(depth, config, kMinPixels, gate);
   }
-  counters.runs_dropped += static_cast<std::uint32_t>(surfaces_.dropped());
+}
+
+/// Without a mask, before there is a model.
+template <class Limits>
+void Segmenter<Limits>::BuildFirstSurfaces(const DepthFrame& frame, const SegmenterConfig& config,
+                                           const DepthReader& depth) noexcept {
+  box_ = RegionOfInterest(frame, config);
+  if (manner_.cut) {
+    const float seed_m = depth.AtOrZero(config.seed_u_px, config.seed_v_px);
+    valleys_.Start(depth, frame.camera, box_, seed_m);
+  }
+  planes_.Find(depth, Surroundings(box_, frame), [](int, int, float) { return true; });
+  const auto connect = [&] {
+    const int fewest_pixels = std::max(64, box_.width() * box_.height() / 2000);
+    Connect(depth, config, fewest_pixels, [](int, int, int, float*) {});
+  };
+  connect();
+  if (surfaces_.components() > 0) return;
+  planes_.Clear();  // There is nothing else: one of them is the object's own.
+  connect();
+}
+
+/// Connects the pixels of the box that a gate, planes and valleys leave.
+template <class Limits>
+template <class Gate>
+void Segmenter<Limits>::Connect(const DepthReader& depth, const SegmenterConfig& config,
+                                int fewest_pixels, const Gate& gate) noexcept {
+  surfaces_.Build(
+      depth, box_, config.depth_jump_ratio, fewest_pixels,
+      [&](int v, int u_begin, int u_end, float* depth_m) {
+        gate(v, u_begin, u_end, depth_m);
+        planes_(v, u_begin, u_end, depth_m);
+        valleys_(depth, v, u_begin, u_end, depth_m);
+      },
+      // A valley is no gap in the sensor's data.
+      valleys_.empty() ? kBridgedGapPx : 0);
 }
 
 template <class Limits>
-int Segmenter<Limits>::ChooseFirst(const DepthFrame& frame,
-                                   const SegmenterConfig& config) const noexcept {
-  const DepthReader depth(frame.depth, config.min_range_m, config.max_range_m);
-  if (config.seed_u_px >= 0 && config.seed_v_px >= 0)
-    return surfaces_.ComponentAt(config.seed_u_px, config.seed_v_px, config.seed_reach_px);
-  int best = Surfaces::kNoComponent;
-  float best_score = 0.0F;
-  for (int c = 0; c < surfaces_.components(); ++c) {
-    const PixelRun& first = surfaces_.first_run(c);
-    const float score = 1.0F / std::max(depth.At(first.u_begin, first.v), 1e-3F);
-    if (score <= best_score) continue;
-    best_score = score;
-    best = c;
-  }
-  return best;
+ModelGate Segmenter<Limits>::GateOf(const DepthFrame& frame, const SegmenterConfig& config,
+                                    const ModelPrior& prior) const noexcept {
+  const float factor = frame.mask.given() ? kMaskMarginFactor : manner_.margins;
+  const float lost_m = prior.doubtful ? config.lost_margin_m : 0.0F;
+  return {frame.camera, prior, factor * config.model_margin_m + lost_m};
 }
 
 template <class Limits>
@@ -99,6 +114,8 @@ template <class Explains>
 void Segmenter<Limits>::Redraw(const DepthFrame& frame, const ModelPrior& prior, Explains& explains,
                                Mask& object) noexcept {
   const bool masked = frame.mask.given();
+  // What a cut leaves may still go on a little where the object ends.
+  const bool near_known_only = manner_.cut && prior.known && !prior.doubtful;
   const DepthReader depth(frame.depth, 0.0F, 1e6F);
   int v_done = 0;
   typename Mask::Row drawn;
@@ -113,15 +130,17 @@ void Segmenter<Limits>::Redraw(const DepthFrame& frame, const ModelPrior& prior,
     if (c == Surfaces::kNoComponent || !vote(c).chosen) return;
     flush(run.v);
     const auto& mask = object.row(run.v);
-    const int inside = masked ? mask.CountRun(run.u_begin, run.u_end) : run.length();
+    const int inside = masked            ? mask.CountRun(run.u_begin, run.u_end)
+                       : near_known_only ? 0
+                                         : run.length();
     if (inside == run.length()) {
       drawn.SetRun(run.u_begin, run.u_end);
       return;
     }
-    drawn.AddRun(mask, run.u_begin, run.u_end);
+    if (masked) drawn.AddRun(mask, run.u_begin, run.u_end);
     for (int u = run.u_begin; u < run.u_end && prior.known; u += kProbeStepPx) {
       const int u_end = std::min(u + kProbeStepPx, static_cast<int>(run.u_end));
-      if (mask.CountRun(u, u_end) == u_end - u) continue;
+      if (masked && mask.CountRun(u, u_end) == u_end - u) continue;
       const PixelRun part{run.v, static_cast<std::int16_t>(u), static_cast<std::int16_t>(u_end), 0,
                           0};
       SurfaceVote piece;

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "disflow/depth/model_gate.h"
+#include "disflow/depth/segmenter.h"
+
+/// @file
+/// Definitions of Segmenter's members that decide which surfaces are the object; apart, so that
+/// tracker.h stays light.
+
+namespace disflow {
+
+template <class Limits>
+template <class Explains>
+void Segmenter<Limits>::Look(const Manner& manner, const DepthFrame& frame,
+                             const SegmenterConfig& config, const ModelPrior& prior,
+                             Explains& explains, const Mask& mask) noexcept {
+  manner_ = manner;
+  BuildSurfaces(frame, config, prior, mask);
+  votes_ = {};
+  for (int c = 0; c < surfaces_.components(); ++c) vote(c).pixels = surfaces_.component(c).pixels;
+  if (!frame.mask.given()) FindEnds(frame, config, prior);
+  ChooseSurfaces(frame, config, prior, explains, mask);
+}
+
+/// A thing that stands on a table or leans against a wall is one surface with it, which goes on
+/// where the object cannot be. Surfaces are then cut where they fold towards the camera.
+template <class Limits>
+template <class Explains>
+void Segmenter<Limits>::LookAround(const DepthFrame& frame, const SegmenterConfig& config,
+                                   const ModelPrior& prior, Explains& explains,
+                                   const Mask& mask) noexcept {
+  const auto goes_on = [&](const Manner& manner) {
+    Look(manner, frame, config, prior, explains, mask);
+    return ObjectGoesOn();
+  };
+  const float far = prior.known ? kFarMargins : 1.0F;
+  if (!prior.known || !prior.contact.touches) {
+    if (!goes_on({})) return;
+    if (prior.known && !goes_on({.margins = far})) {
+      (void)goes_on({});  // As it moves it reached out of the margin, no more.
+      return;
+    }
+  }
+  contact_.touches = goes_on({.margins = far, .cut = true});
+  if (prior.known && !prior.doubtful)
+    contact_.merged = !ChooseOfCut(votes_.data(), surfaces_.components());
+}
+
+template <class Limits>
+bool Segmenter<Limits>::ObjectGoesOn() noexcept {
+  for (int c = 0; c < surfaces_.components(); ++c) {
+    const bool candidate = manner_.cut || vote(c).chosen || vote(c).explained > 0;
+    if (candidate && GoesOn(vote(c))) return true;
+  }
+  return false;
+}
+
+template <class Limits>
+void Segmenter<Limits>::FindEnds(const DepthFrame& frame, const SegmenterConfig& config,
+                                 const ModelPrior& prior) noexcept {
+  const DepthReader depth(frame.depth, config.min_range_m, config.max_range_m);
+  const ModelGate gate = GateOf(frame, config, prior);
+  const auto goes_on = [&](int u, int u_beyond, int v) {
+    const float here_m = depth.At(u, v);
+    float beyond_m = depth.AtOrZero(u_beyond, v);
+    const bool outside = u_beyond < box_.u_min || u_beyond >= box_.u_max;
+    if (beyond_m <= 0.0F) return !prior.known && outside;
+    if (std::abs(beyond_m - here_m) > config.depth_jump_ratio * std::min(here_m, beyond_m))
+      return false;
+    planes_(v, u_beyond, u_beyond + 1, &beyond_m);
+    if (beyond_m <= 0.0F) return false;
+    if (!prior.known) return outside;
+    return !gate.Accepts(
+        frame.camera.BackProject(static_cast<float>(u_beyond), static_cast<float>(v), beyond_m));
+  };
+  surfaces_.ForEachRun([&](int c, const PixelRun& run) {
+    if (c == Surfaces::kNoComponent) return;
+    ++vote(c).runs;
+    vote(c).ends += int{goes_on(run.u_begin, run.u_begin - 1, run.v)} +
+                    int{goes_on(run.u_end - 1, run.u_end, run.v)};
+  });
+}
+
+template <class Limits>
+template <class Explains>
+void Segmenter<Limits>::ChooseSurfaces(const DepthFrame& frame, const SegmenterConfig& config,
+                                       const ModelPrior& prior, Explains& explains,
+                                       const Mask& mask) noexcept {
+  const int count = surfaces_.components();
+  if (frame.mask.given()) {
+    ChooseMasked(frame, config, prior, explains, mask);
+    return;
+  }
+  if (!prior.known) {
+    const int first = ChooseFirst(frame, config);
+    if (first < count) vote(first).chosen = true;
+    return;
+  }
+  // A single surface needs no asking, unless it may be more than the object.
+  if ((count != 1 || manner_.cut) && !prior.doubtful) {
+    const DepthReader depth(frame.depth, config.min_range_m, config.max_range_m);
+    surfaces_.ForEachRun([&](int c, const PixelRun& run) {
+      if (c != Surfaces::kNoComponent && run.v % kProbeStepPx == 0)
+        Probe(depth, frame.camera, explains, run, vote(c));
+    });
+  }
+  bool any = false;
+  for (int c = 0; c < count; ++c) {
+    vote(c).chosen = !prior.doubtful && BelongsToObject(vote(c));
+    any = any || vote(c).chosen;
+  }
+  // The prediction is far off.
+  if (!any && count > 0) vote(LargestOfItsOwn()).chosen = true;
+}
+
+template <class Limits>
+int Segmenter<Limits>::LargestOfItsOwn() noexcept {
+  int largest = 0;
+  for (int c = 1; c < surfaces_.components(); ++c) {
+    const bool ends = !GoesOn(vote(c));
+    const bool ends_largest = !GoesOn(vote(largest));
+    if (ends == ends_largest ? vote(c).pixels > vote(largest).pixels : ends) largest = c;
+  }
+  return largest;
+}
+
+template <class Limits>
+template <class Explains>
+void Segmenter<Limits>::ChooseMasked(const DepthFrame& frame, const SegmenterConfig& config,
+                                     const ModelPrior& prior, Explains& explains,
+                                     const Mask& mask) noexcept {
+  const DepthReader depth(frame.depth, config.min_range_m, config.max_range_m);
+  surfaces_.ForEachRun([&](int c, const PixelRun& run) {
+    if (c == Surfaces::kNoComponent) return;
+    vote(c).masked += mask.row(run.v).CountRun(run.u_begin, run.u_end);
+    if (prior.known && run.v % kProbeStepPx == 0)
+      ProbeMasked(depth, frame.camera, explains, run, mask, vote(c));
+  });
+  const int count = surfaces_.components();
+  int most = 0;
+  int all_pixels = 0;
+  int chosen_pixels = 0;
+  for (int c = 0; c < count; ++c) {
+    SurfaceVote& v = vote(c);
+    v.chosen = BelongsToMaskedObject(v);
+    all_pixels += v.masked;
+    if (v.chosen) chosen_pixels += v.masked;
+    if (v.masked > vote(most).masked) most = c;
+  }
+  // Next to nothing of what the mask covers: the prediction is far off, or the object is one
+  // surface with what it stands on and there is no model yet.
+  constexpr int kMinPercent = 20;
+  if (count > 0 && 100 * chosen_pixels < kMinPercent * all_pixels) vote(most).chosen = true;
+}
+
+template <class Limits>
+int Segmenter<Limits>::ChooseFirst(const DepthFrame& frame,
+                                   const SegmenterConfig& config) const noexcept {
+  const DepthReader depth(frame.depth, config.min_range_m, config.max_range_m);
+  if (config.seed_u_px >= 0 && config.seed_v_px >= 0)
+    return surfaces_.ComponentAt(config.seed_u_px, config.seed_v_px,
+                                 std::max(config.seed_reach_px, valleys_.reach_px()));
+  int best = Surfaces::kNoComponent;
+  float best_score = 0.0F;
+  for (int c = 0; c < surfaces_.components(); ++c) {
+    const PixelRun& first = surfaces_.first_run(c);
+    const float score = 1.0F / std::max(depth.At(first.u_begin, first.v), 1e-3F);
+    if (score <= best_score) continue;
+    best_score = score;
+    best = c;
+  }
+  return best;
+}
+
+}  // namespace disflow

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+namespace disflow {
+
+/// What mask, model and surroundings say of one connected surface.
+struct SurfaceVote {
+  bool chosen = false;
+  int pixels = 0;
+  int masked = 0;     ///< Its pixels within the mask.
+  int probed = 0;     ///< Its points that the model was asked about.
+  int explained = 0;  ///< Of these, those near known surface.
+  int runs = 0;       ///< Its runs of pixels in image rows.
+  int ends = 0;       ///< Ends of these where it goes on to where the object cannot be.
+};
+
+/// Whether a surface is the object's, once there is a model and without a mask.
+[[nodiscard]] bool BelongsToObject(const SurfaceVote& vote) noexcept;
+
+/// The same under a mask; the model was only asked about what the mask covers.
+[[nodiscard]] bool BelongsToMaskedObject(const SurfaceVote& vote) noexcept;
+
+/// Whether a surface goes on where the object cannot be, as that of a table does.
+[[nodiscard]] bool GoesOn(const SurfaceVote& vote) noexcept;
+
+/// Of surfaces that were cut at their valleys, those that still go on are what the object stands
+/// on, unless the model explains little of the others: then the object could not be cut off, and
+/// all that the model explains some of is chosen.
+/// @param votes Of `count` surfaces, chosen as if nothing was near the object.
+/// @return Whether the object was cut off.
+[[nodiscard]] bool ChooseOfCut(SurfaceVote* votes, int count) noexcept;
+
+}  // namespace disflow

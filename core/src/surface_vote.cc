@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "disflow/depth/surface_vote.h"
+
+#include <algorithm>
+
+namespace disflow {
+
+bool BelongsToObject(const SurfaceVote& vote) noexcept {
+  return vote.probed == 0 || 10 * vote.explained >= 3 * vote.probed;
+}
+
+bool BelongsToMaskedObject(const SurfaceVote& vote) noexcept {
+  if (vote.masked == 0) return false;
+  const bool mostly_outside = 2 * vote.masked < vote.pixels;
+  constexpr int kMinProbed = 4;
+  if (vote.probed < kMinProbed) return !mostly_outside;
+  // Where the mask has most of it, only a model that plainly contradicts keeps it out.
+  return 10 * vote.explained >= (mostly_outside ? 3 : 1) * vote.probed;
+}
+
+bool GoesOn(const SurfaceVote& vote) noexcept {
+  constexpr int kMinEnds = 8;
+  // Of a thing that was cut off nothing goes on, of a table under it a tenth and more of its rows.
+  constexpr int kMinPercent = 3;
+  return vote.ends >= kMinEnds && 100 * vote.ends >= kMinPercent * vote.runs;
+}
+
+bool ChooseOfCut(SurfaceVote* votes, int count) noexcept {
+  // New surface that comes into view in one frame is less of the object.
+  constexpr int kMinKnownPercent = 85;
+  // Smaller shares are what noise cut off of the table.
+  constexpr int kMinPercent = 10;
+  int explained = 0;
+  SurfaceVote own;
+  for (int c = 0; c < count; ++c) {
+    explained += votes[c].explained;
+    if (!votes[c].chosen || GoesOn(votes[c])) continue;
+    own.explained += votes[c].explained;
+    own.probed += votes[c].probed;
+    own.pixels = std::max(own.pixels, votes[c].pixels);
+  }
+  if (explained == 0) return true;
+  const bool cut_off =
+      2 * own.explained > explained && 100 * own.explained >= kMinKnownPercent * own.probed;
+  for (int c = 0; c < count; ++c) {
+    SurfaceVote& vote = votes[c];
+    vote.chosen =
+        cut_off ? vote.chosen && !GoesOn(vote) && 100 * vote.pixels >= kMinPercent * own.pixels
+                : 100 * vote.explained >= kMinPercent * explained;
+  }
+  return cut_off;
+}
+
+}  // namespace disflow

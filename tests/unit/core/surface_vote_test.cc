@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "disflow/depth/surface_vote.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+namespace disflow {
+namespace {
+
+/// Of the object, cut off from what it stands on.
+SurfaceVote Own() {
+  SurfaceVote vote;
+  vote.chosen = true;
+  vote.pixels = 6000;
+  vote.probed = 100;
+  vote.explained = 97;
+  vote.runs = 250;
+  return vote;
+}
+
+SurfaceVote Table() {
+  SurfaceVote vote;
+  vote.pixels = 30000;
+  vote.probed = 500;
+  vote.explained = 40;
+  vote.runs = 700;
+  vote.ends = 120;
+  return vote;
+}
+
+TEST(SurfaceVote, SurfaceWhoseRowsEndAtNothing_GoesOn) {
+  EXPECT_TRUE(GoesOn(Table()));
+  EXPECT_FALSE(GoesOn(Own()));
+  // A few pixels of noise are no table.
+  SurfaceVote noisy = Own();
+  noisy.ends = 7;
+  EXPECT_FALSE(GoesOn(noisy));
+}
+
+TEST(SurfaceVote, ObjectThatWasCutOff_IsChosenWithoutItsTable) {
+  std::array votes{Table(), Own()};
+  votes[0].chosen = true;  // near the model's foot a third of it is explained
+  EXPECT_TRUE(ChooseOfCut(votes.data(), 2));
+  EXPECT_FALSE(votes[0].chosen);
+  EXPECT_TRUE(votes[1].chosen);
+}
+
+TEST(SurfaceVote, TwoPartsOfTheObject_AreBothChosenButNoCrumbs) {
+  std::array votes{Own(), Own(), Own()};
+  votes[1].pixels = 700;
+  votes[2].pixels = 500;
+  EXPECT_TRUE(ChooseOfCut(votes.data(), 3));
+  EXPECT_TRUE(votes[0].chosen);
+  EXPECT_TRUE(votes[1].chosen);
+  EXPECT_FALSE(votes[2].chosen);
+}
+
+TEST(SurfaceVote, ObjectInOnePieceWithItsTable_IsChosenButNotCutOff) {
+  SurfaceVote both = Table();
+  both.explained = 130;
+  std::array votes{both};
+  EXPECT_FALSE(ChooseOfCut(votes.data(), 1));
+  EXPECT_TRUE(votes[0].chosen);
+}
+
+TEST(SurfaceVote, SurfaceOfWhichTheModelKnowsTooLittle_IsNotCutOff) {
+  SurfaceVote leaking = Own();
+  leaking.explained = 80;
+  std::array votes{leaking};
+  EXPECT_FALSE(ChooseOfCut(votes.data(), 1));
+  EXPECT_TRUE(votes[0].chosen);
+}
+
+TEST(SurfaceVote, WhereTheModelExplainsNothing_TheChoiceStays) {
+  SurfaceVote elsewhere = Own();
+  elsewhere.explained = 0;
+  std::array votes{elsewhere, Table()};
+  votes[1].explained = 0;
+  EXPECT_TRUE(ChooseOfCut(votes.data(), 2));
+  EXPECT_TRUE(votes[0].chosen);
+  EXPECT_FALSE(votes[1].chosen);
+}
+
+TEST(SurfaceVote, UnderAMask_OnlyAModelThatPlainlyContradictsKeepsASurfaceOut) {
+  SurfaceVote vote = Own();
+  vote.masked = vote.pixels;
+  EXPECT_TRUE(BelongsToMaskedObject(vote));
+  vote.explained = 9;
+  EXPECT_FALSE(BelongsToMaskedObject(vote));
+  vote.explained = 29;
+  EXPECT_TRUE(BelongsToMaskedObject(vote));
+  vote.masked = vote.pixels / 3;  // most of it is outside
+  EXPECT_FALSE(BelongsToMaskedObject(vote));
+}
+
+}  // namespace
+}  // namespace disflow

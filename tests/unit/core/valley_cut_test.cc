@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <memory>
+#include <random>
+
+#include "depth_scene.h"
+#include "disflow/depth/valley_cut_impl.h"
+
+namespace disflow {
+namespace {
+
+using testing::DepthScene;
+
+constexpr PixelBox kImage{0, 0, DepthScene::kWidth_px, DepthScene::kHeight_px};
+constexpr float kDistance_m = 0.5F;
+constexpr int kFold_px = 80;
+
+class ValleyCutTest : public ::testing::Test {
+ protected:
+  /// Which pixels of the box are cut.
+  void Cut(const DepthScene& scene, const PixelBox& box = kImage) {
+    const DepthFrame frame = scene.frame();
+    const DepthReader depth(frame.depth, 0.1F, 10.0F);
+    valleys_->Start(depth, frame.camera, box, kDistance_m);
+    for (auto& row : cut_) row.fill(false);
+    std::array<float, DepthScene::kWidth_px> row_m;
+    for (int v = box.v_min; v < box.v_max; ++v) {
+      depth.ReadRow(v, box.u_min, box.u_max, row_m.data());
+      const auto before_m = row_m;
+      (*valleys_)(depth, v, box.u_min, box.u_max, row_m.data());
+      for (int u = box.u_min; u < box.u_max; ++u) {
+        const auto i = static_cast<std::size_t>(u - box.u_min);
+        cut_[static_cast<std::size_t>(v)][static_cast<std::size_t>(u)] =
+            before_m[i] > 0.0F && row_m[i] <= 0.0F;
+        if (row_m[i] > 0.0F) {
+          EXPECT_EQ(row_m[i], before_m[i]);
+        }
+      }
+    }
+  }
+  [[nodiscard]] bool IsCut(int u, int v) const {
+    return cut_[static_cast<std::size_t>(v)][static_cast<std::size_t>(u)];
+  }
+  [[nodiscard]] int Count() const {
+    int count = 0;
+    for (const auto& row : cut_)
+      count += static_cast<int>(std::count(row.begin(), row.end(), true));
+    return count;
+  }
+
+  std::unique_ptr<ValleyCut<DepthScene::kWidth_px>> valleys_ =
+      std::make_unique<ValleyCut<DepthScene::kWidth_px>>();
+  std::array<std::array<bool, DepthScene::kWidth_px>, DepthScene::kHeight_px> cut_{};
+};
+
+/// Two planes that meet in column kFold_px, or row if `across`.
+/// @param fold Between their slopes, m/m; > 0: towards the camera.
+DepthScene Folded(float fold, bool across = false, float noise_per_m = 0.0F) {
+  DepthScene scene;
+  const float w = 1.0F / kDistance_m;
+  const float slope = 0.5F * fold * w / DepthScene::kFocal_px;
+  std::minstd_rand random(5);
+  std::normal_distribution<float> normal(0.0F, 1.0F);
+  scene.Draw(kImage, [&](int u, int v) {
+    const int beside_px = std::abs(across ? v - kFold_px / 2 : u - kFold_px);
+    return 1.0F / (w + slope * static_cast<float>(beside_px) + noise_per_m * normal(random));
+  });
+  return scene;
+}
+
+TEST_F(ValleyCutTest, Valley_IsCutAlongAllOfItsLength) {
+  for (const bool across : {false, true}) {
+    Cut(Folded(1.2F, across));
+    const int length_px = across ? DepthScene::kWidth_px : DepthScene::kHeight_px;
+    for (int i = 0; i < length_px; ++i)
+      EXPECT_TRUE(across ? IsCut(i, kFold_px / 2) : IsCut(kFold_px, i)) << across << ", " << i;
+  }
+}
+
+TEST_F(ValleyCutTest, WhatLiesBesideTheValley_IsNotCut) {
+  Cut(Folded(1.2F));
+  for (int v = 0; v < DepthScene::kHeight_px; ++v) {
+    for (int u = 0; u < DepthScene::kWidth_px; ++u) {
+      if (std::abs(u - kFold_px) > valleys_->reach_px() + 1) {
+        EXPECT_FALSE(IsCut(u, v)) << u;
+      }
+    }
+  }
+}
+
+TEST_F(ValleyCutTest, RidgesAndPlanesHoweverTilted_AreNotCut) {
+  for (const float fold : {-2.0F, -1.2F, 0.0F}) {
+    Cut(Folded(fold));
+    EXPECT_EQ(Count(), 0) << fold;
+  }
+  DepthScene table(3.0F);
+  Cut(table.Table());
+  int cut = 0;
+  for (int v = 40; v < DepthScene::kHeight_px; ++v) cut += IsCut(60, v) ? 1 : 0;
+  EXPECT_EQ(cut, 0);
+}
+
+TEST_F(ValleyCutTest, ShallowFold_IsNotCut) {
+  Cut(Folded(0.35F));
+  EXPECT_EQ(Count(), 0);
+}
+
+TEST_F(ValleyCutTest, HollowAsLargeAsABowl_IsNotCut) {
+  constexpr float kRadius_m = 0.05F;
+  DepthScene scene(2.0F);
+  scene.Draw({65, 45, 95, 75}, [](int u, int v) {
+    const float x_m = static_cast<float>(u - 80) * kDistance_m / DepthScene::kFocal_px;
+    const float y_m = static_cast<float>(v - 60) * kDistance_m / DepthScene::kFocal_px;
+    return kDistance_m + std::sqrt(kRadius_m * kRadius_m - x_m * x_m - y_m * y_m) - kRadius_m;
+  });
+  Cut(scene, {73, 53, 87, 67});
+  EXPECT_EQ(Count(), 0);
+}
+
+TEST_F(ValleyCutTest, NoiseOfAnySize_CutsNextToNothing) {
+  for (const float noise_per_m : {0.0F, 0.003F, 0.01F, 0.03F}) {
+    Cut(Folded(0.0F, false, noise_per_m));
+    EXPECT_LE(Count(), kImage.width() * kImage.height() / 500) << noise_per_m;
+  }
+}
+
+TEST_F(ValleyCutTest, ValleyAboveTheNoise_IsStillCut) {
+  Cut(Folded(1.2F, false, 0.001F));
+  int cut = 0;
+  for (int v = 0; v < DepthScene::kHeight_px; ++v) cut += IsCut(kFold_px, v) ? 1 : 0;
+  EXPECT_GT(cut, DepthScene::kHeight_px * 9 / 10);
+}
+
+TEST_F(ValleyCutTest, NearerThing_IsNotCutWhereItEnds) {
+  constexpr PixelBox kThing{60, 40, 100, 80};
+  DepthScene scene(1.0F);
+  Cut(scene.Rectangle(kThing, kDistance_m));
+  for (int v = kThing.v_min; v < kThing.v_max; ++v) {
+    for (int u = kThing.u_min; u < kThing.u_max; ++u) EXPECT_FALSE(IsCut(u, v)) << u << ", " << v;
+  }
+}
+
+TEST_F(ValleyCutTest, ImagesWithoutDepth_AreLeftAlone) {
+  Cut(DepthScene(0.0F));
+  EXPECT_EQ(Count(), 0);
+  EXPECT_TRUE(valleys_->empty());
+}
+
+TEST_F(ValleyCutTest, BoxesOfAnyPlaceAndSize_AreReadWithinTheImage) {
+  const DepthScene scene = Folded(1.2F);
+  for (const PixelBox& box : {PixelBox{0, 0, 1, 1}, PixelBox{159, 119, 160, 120},
+                              PixelBox{1, 3, 4, 120}, PixelBox{0, 118, 160, 120}}) {
+    Cut(scene, box);
+    for (int v = box.v_min; v < box.v_max; ++v) {
+      for (int u = box.u_min; u < box.u_max; ++u) {
+        if (std::abs(u - kFold_px) > 2 * ValleyCut<DepthScene::kWidth_px>().reach_px() + 20) {
+          EXPECT_FALSE(IsCut(u, v));
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace disflow
