@@ -79,7 +79,7 @@ void ExpectSums(const PixelMoments& sum, const Expected& expected, int block_px)
 }
 
 TEST(ColumnSums, BlocksOfAnySizeAndFilling_HaveTheSumsOfTheirPixels) {
-  for (const int block_px : {1, 2, 3, 5, 8, 16, 61, 80}) {
+  for (const int block_px : {1, 2, 3, 5, 8, 16, 24}) {
     for (const double share : {1.0, 0.6, 0.03, 0.0}) {
       const auto rows = MakeRows(block_px, share, static_cast<unsigned>(block_px));
       const float half = 0.5F * static_cast<float>(block_px - 1);
