@@ -8,13 +8,6 @@
 namespace disflow {
 namespace {
 
-bool Agree(const ModelEdge& edge, const EdgePoint& point) noexcept {
-  constexpr float kMostTurnSin = 0.34F;  // 20 degrees
-  constexpr float kSimilarNormalCos = 0.8F;
-  return std::abs(edge.direction.dot(point.outward)) < kMostTurnSin &&
-         edge.normal.dot(point.normal) > kSimilarNormalCos;
-}
-
 /// Kalman update with the position along one unit vector.
 /// @param per_radius What rounding adds to the position seen along it, per radius.
 void Update(const Vec3& unit, const Vec3& position_m, float per_radius, float variance_m2,
@@ -68,17 +61,25 @@ ModelEdge MakeModelEdge(const EdgePoint& point, std::uint32_t frame) noexcept {
   return edge;
 }
 
+bool IsSeenAs(const ModelEdge& edge, const EdgePoint& point) noexcept {
+  constexpr float kMostTurnSin = 0.34F;  // 20 degrees
+  constexpr float kSimilarNormalCos = 0.8F;
+  const float least_weight = point.steady ? 0.0F : kWellKnownWeight;
+  return edge.weight >= least_weight &&
+         std::abs(edge.direction.dot(point.outward)) < kMostTurnSin &&
+         edge.normal.dot(point.normal) > kSimilarNormalCos;
+}
+
 int FindNearestEdge(std::span<const ModelEdge> edges, const EdgePoint& point,
                     float radius_m) noexcept {
   int nearest = -1;
   float nearest_squared = radius_m * radius_m;
-  const float least_weight = point.steady ? 0.0F : kWellKnownWeight;
   for (std::size_t i = 0; i < edges.size(); ++i) {
     // Most are far off along any one axis.
     const float along_x_m = edges[i].position_m.x() - point.position_m.x();
-    if (along_x_m * along_x_m >= nearest_squared || edges[i].weight < least_weight) continue;
+    if (along_x_m * along_x_m >= nearest_squared) continue;
     const float squared = (edges[i].position_m - point.position_m).squaredNorm();
-    if (squared < nearest_squared && Agree(edges[i], point)) {
+    if (squared < nearest_squared && IsSeenAs(edges[i], point)) {
       nearest_squared = squared;
       nearest = static_cast<int>(i);
     }

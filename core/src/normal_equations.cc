@@ -6,23 +6,6 @@
 
 namespace disflow {
 
-void NormalSums::Add(const Vec3& lever_m, const Vec3& gradient, float residual_m, float weight,
-                     float per_radius) noexcept {
-  const Vec3 turning = lever_m.cross(gradient);
-  const Mat<float, 4, 1> head(gradient.x(), gradient.y(), gradient.z(), turning.x());
-  const Mat<float, 4, 1> tail(turning.y(), turning.z(), per_radius, residual_m);
-  const Mat<float, 4, 1> place(lever_m.x(), lever_m.y(), lever_m.z(), 1.0F);
-  const Mat<float, 4, 1> weighted_head = weight * head;
-  const Mat<float, 4, 1> weighted_tail = weight * tail;
-  const Mat<float, 4, 1> weighted_place = weight * place;
-  for (int k = 0; k < 4; ++k) {
-    first_.col(k).head<4>() += head[k] * weighted_head;
-    first_.col(k).tail<4>() += head[k] * weighted_tail;
-    second_.col(k) += tail[k] * weighted_tail;
-    moments_.col(k) += place[k] * weighted_place;
-  }
-}
-
 NormalEquations& NormalEquations::operator+=(const NormalSums& sums) noexcept {
   Mat<float, 8, 8> all;
   all.leftCols<4>() = sums.first_;

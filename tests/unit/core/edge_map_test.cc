@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <vector>
+
+#include "disflow/field/edge_index.h"
 
 namespace disflow::testing {
 namespace {
@@ -32,7 +35,8 @@ class EdgeMapTest : public ::testing::Test {
   EdgeMapTest() { map_.Start(); }
   void Insert(const EdgePoint& point) { map_.Insert(point, kMerge_m, frame_, counters_); }
   [[nodiscard]] const Map::Edge* Nearest(const EdgePoint& point, float radius_m = 1.0F) const {
-    return map_.FindNearest(point, radius_m);
+    const int nearest = FindNearestEdge(map_.all(), point, radius_m);
+    return nearest < 0 ? nullptr : &map_.all()[static_cast<std::size_t>(nearest)];
   }
 
   Map map_;
@@ -157,6 +161,46 @@ TEST_F(EdgeMapTest, NearestEdge_IsTheNearestOfThoseInReach) {
   }
   EXPECT_GT(found, 100);
   EXPECT_LT(found, 490);
+}
+
+TEST(EdgeIndex, FindsWhatIsFoundWithoutIt) {
+  constexpr int kMany = 200;
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> uniform(-0.1F, 0.1F);
+  // Along any axis, and all in one place.
+  for (const Vec3& extent :
+       {Vec3(1.0F, 0.2F, 0.2F), Vec3(0.1F, 0.2F, 1.0F), Vec3(0.0F, 0.0F, 0.0F)}) {
+    const auto place = [&] {
+      return Vec3(extent.cwiseProduct(Vec3(uniform(random), uniform(random), uniform(random))));
+    };
+    std::vector<ModelEdge> edges;
+    for (int i = 0; i < kMany; ++i) {
+      edges.push_back(
+          MakeModelEdge(PointAt(place(), i % 2 == 0 ? Vec3::UnitX() : Vec3::UnitY()), 1));
+      edges.back().weight = static_cast<float>(i % 20);
+    }
+    EdgeIndex<kMany> index;
+    index.Build(edges);
+    for (int i = 0; i < 500; ++i) {
+      EdgePoint asked = PointAt(Vec3(1.2F * place()));
+      asked.steady = i % 3 != 0;
+      for (const float radius_m : {0.003F, 0.02F, 0.5F}) {
+        const int nearest = FindNearestEdge(edges, asked, radius_m);
+        const ModelEdge* const found = index.FindNearest(asked, radius_m);
+        ASSERT_EQ(found != nullptr, nearest >= 0) << i;
+        if (found == nullptr) continue;
+        const Vec3 expected_m = edges[static_cast<std::size_t>(nearest)].position_m;
+        ASSERT_EQ((found->position_m - asked.position_m).norm(),
+                  (expected_m - asked.position_m).norm());
+      }
+    }
+  }
+}
+
+TEST(EdgeIndex, EmptyMap_HasNoNearestEdge) {
+  EdgeIndex<kCapacity> index;
+  index.Build({});
+  EXPECT_EQ(index.FindNearest(PointAt(0.0F), 1.0F), nullptr);
 }
 
 TEST_F(EdgeMapTest, DepthThatIsHardlyKnown_ComesFromAnotherView) {

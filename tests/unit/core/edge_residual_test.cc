@@ -44,7 +44,8 @@ TEST(EdgeResiduals, PointNearAKnownEdge_IsMatchedWhetherSteadyOrNot) {
   for (const bool steady : {true, false}) {
     Residuals::Edges edges;
     ASSERT_TRUE(edges.push_back(PointAt(0.001F, steady)));
-    Residuals residuals(model, edges, config);
+    const auto index = std::make_unique<Residuals::Index>();
+    Residuals residuals(model, edges, config, *index);
     for (const Matching matching : {Matching::kSearch, Matching::kKeep, Matching::kLinear}) {
       const Residual residual = residuals.At(0, PoseObjectFromCamera(), kScale_m, matching);
       EXPECT_EQ(residual.status, ResidualStatus::kMatched);
@@ -59,7 +60,8 @@ TEST(EdgeResiduals, PointFarFromAllEdges_IsMissedOnlyIfSteady) {
   Residuals::Edges edges;
   ASSERT_TRUE(edges.push_back(PointAt(0.1F, true)));
   ASSERT_TRUE(edges.push_back(PointAt(0.1F, false)));
-  Residuals residuals(model, edges, config);
+  const auto index = std::make_unique<Residuals::Index>();
+  Residuals residuals(model, edges, config, *index);
   for (const Matching matching : {Matching::kSearch, Matching::kKeep, Matching::kLinear}) {
     EXPECT_EQ(residuals.At(0, PoseObjectFromCamera(), kScale_m, matching).status,
               ResidualStatus::kUnmatched);

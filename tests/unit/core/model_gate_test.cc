@@ -50,17 +50,17 @@ TEST(ModelGate, PointsOfTheBoundsAndTheMargin_AreAccepted) {
   EXPECT_LT(accepted, 4900);
 }
 
-TEST(ModelGate, ARowAtOnce_IsTheSameAsPointByPoint) {
+/// Of rows of 100 pixels. @return How many were accepted.
+template <class Depth>
+int ExpectTheSameAsPointByPoint(Depth&& depth) {
   const ModelPrior prior = Prior();
   const PinholeCamera camera = DepthScene::camera();
   const ModelGate gate(camera, prior, kMargin_m);
-  std::mt19937 random(2);
-  std::uniform_real_distribution<float> depth(0.55F, 0.85F);
   int kept = 0;
   for (int v = 0; v < DepthScene::kHeight_px; ++v) {
     std::array<float, 100> row;
     std::array<float, 100> gated;
-    for (std::size_t i = 0; i < row.size(); ++i) gated[i] = row[i] = depth(random);
+    for (std::size_t i = 0; i < row.size(); ++i) gated[i] = row[i] = depth(static_cast<int>(i), v);
     gate(v, 30, 130, gated.data());
     for (std::size_t i = 0; i < row.size(); ++i) {
       const Vec3 x_c =
@@ -68,11 +68,31 @@ TEST(ModelGate, ARowAtOnce_IsTheSameAsPointByPoint) {
       const Vec3 x_o = prior.T_oc * x_c;
       const Vec3 over = (x_o - prior.box_max_m).cwiseMax(prior.box_min_m - x_o);
       if (std::abs(over.maxCoeff() - kMargin_m) < 1e-5F) continue;  // on the very border
-      ASSERT_EQ(gated[i], gate.Accepts(x_c) ? row[i] : 0.0F) << i << ' ' << v;
+      EXPECT_EQ(gated[i], gate.Accepts(x_c) ? row[i] : 0.0F) << i << ' ' << v;
       kept += gated[i] > 0.0F ? 1 : 0;
     }
   }
-  EXPECT_GT(kept, 100);
+  return kept;
+}
+
+TEST(ModelGate, ARowAtOnce_IsTheSameAsPointByPoint) {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<float> depth(0.55F, 0.85F);
+  EXPECT_GT(ExpectTheSameAsPointByPoint([&](int, int) { return depth(random); }), 100);
+}
+
+TEST(ModelGate, SmoothSurface_IsTheSameAsPointByPoint) {
+  std::mt19937 random(3);
+  std::bernoulli_distribution hole(0.02);
+  for (const float depth_m : {0.3F, 0.62F, 0.7F, 0.78F, 1.5F}) {
+    for (const bool holes : {false, true}) {
+      const int kept = ExpectTheSameAsPointByPoint([&](int i, int v) {
+        if (holes && hole(random)) return 0.0F;
+        return depth_m + 1e-4F * static_cast<float>(i) + 2e-4F * static_cast<float>(v);
+      });
+      EXPECT_EQ(kept > 100, depth_m > 0.5F && depth_m < 1.0F) << depth_m;
+    }
+  }
 }
 
 TEST(ModelGate, SearchBox_HoldsEveryAcceptedPixel) {

@@ -8,6 +8,8 @@
 #include <random>
 #include <vector>
 
+#include "disflow/depth/depth_frame.h"
+
 namespace disflow {
 namespace {
 
@@ -117,6 +119,23 @@ TEST(PixelMask, Box_HoldsAllPixelsTightly) {
   mask.Finish();
   EXPECT_TRUE(mask.box().empty());
   EXPECT_EQ(mask.count(), 0);
+}
+
+TEST(PixelMask, BitsOfAPartOfARow_AreItsPixels) {
+  const PlainMask plain(0.5, 9);
+  const Mask mask = Packed(plain);
+  MaskView view{plain.Row(0), kWidth_px, kHeight_px, kWidth_px};
+  for (const std::uint8_t label : {std::uint8_t{0}, std::uint8_t{200}}) {
+    view.label = label;
+    for (const int v : {-1, 0, 7, kHeight_px - 1, kHeight_px}) {
+      for (int u = -12; u < kWidth_px + 12; ++u) {
+        std::uint32_t expected = 0;
+        for (int i = 0; i < 9; ++i) expected |= (plain.Test(u + i, v) ? 1U : 0U) << i;
+        ASSERT_EQ(mask.BitsIn(v, u, 9), expected) << u << ' ' << v;
+        ASSERT_EQ(view.BitsIn(v, u, 9), expected) << u << ' ' << v;
+      }
+    }
+  }
 }
 
 TEST(PixelRow, Runs_AreSetCountedAndClearedAcrossWords) {

@@ -34,16 +34,20 @@ inline constexpr std::array<BlockWindow, 9> kBlockWindows{{{-1, 1, -1, 1},
 template <class Limits>
 class BlockGrid {
  public:
+  using Sums = ColumnSums<Limits::kMaxImageWidth>;
   static constexpr std::uint16_t kNoSample = 65535;
 
   /// Blocks as small as the number of samples allows.
   /// @param interior Object pixels away from the outline.
+  /// @param sums Memory for the time being.
   /// @return How many of them have no depth.
   template <class Mask>
-  int Build(const DepthReader& depth, const Mask& interior, const SamplerConfig& config) noexcept {
+  int Build(const DepthReader& depth, const Mask& interior, const SamplerConfig& config,
+            Sums& sums) noexcept {
     ChooseBlockSize(interior, config);
     int without_depth = 0;
-    while (!LayOutGrid(interior.box()) || !SumBlocks(depth, interior, without_depth)) ++block_px_;
+    while (!LayOutGrid(interior.box()) || !SumBlocks(depth, interior, sums, without_depth))
+      ++block_px_;
     return without_depth;
   }
 
@@ -61,6 +65,11 @@ class BlockGrid {
   }
   [[nodiscard]] const PixelMoments& block(int column, int row) const noexcept {
     return moments_[grid_[Index(column, row)]];
+  }
+  /// The first column of [begin, end) whose block in a row holds pixels; `end` if there is none.
+  [[nodiscard]] int FirstFilled(int begin, int end, int row) const noexcept {
+    while (begin < end && grid_[Index(begin, row)] == kEmptyBlock) ++begin;
+    return begin;
   }
   /// Whether a block has its eight neighbours in the grid.
   [[nodiscard]] bool HasRing(int column, int row) const noexcept {
@@ -130,39 +139,59 @@ class BlockGrid {
 
   /// @return false if too many blocks hold pixels.
   template <class Mask>
-  [[nodiscard]] bool SumBlocks(const DepthReader& depth, const Mask& interior,
+  [[nodiscard]] bool SumBlocks(const DepthReader& depth, const Mask& interior, Sums& sums,
                                int& without_depth) noexcept {
-    without_depth = 0;
+    int with_depth = 0;
     for (int row = 0; row < rows_; ++row) {
-      without_depth += SumRow(depth, interior, row);
+      SumRow(depth, interior, row, sums);
       for (int column = 0; column < columns_; ++column) {
-        if (!Keep(Index(column, row), sums_.Block(column))) return false;
+        const PixelMoments sum = sums.Block(column);
+        with_depth += static_cast<int>(sum.n);
+        if (!Keep(Index(column, row), sum)) return false;
       }
     }
+    without_depth = interior.count() - with_depth;
     return true;
   }
 
-  /// Sums up a row of blocks. @return How many of its pixels have no depth.
+  /// Sums up a row of blocks.
   template <class Mask>
-  [[nodiscard]] int SumRow(const DepthReader& depth, const Mask& interior, int row) noexcept {
-    const PixelBox& box = interior.box();
+  void SumRow(const DepthReader& depth, const Mask& interior, int row, Sums& sums) noexcept {
     const float half = 0.5F * static_cast<float>(block_px_ - 1);
     const int v_begin = origin_v_ + row * block_px_;
-    const int v_end = std::min(v_begin + block_px_, box.v_max);
-    int without_depth = 0;
-    sums_.Start(box.width(), block_px_);
-    for (int v = v_begin; v < v_end; ++v) {
-      const auto pixels = interior.RowAt(v);
-      int wanted = box.width();
-      depth.ReadRow(v, box.u_min, box.u_max, row_m_.data());
-      pixels.ForEachGap(box.u_min, box.u_max, [&](int u_begin, int u_end) {
-        std::fill(row_m_.begin() + (u_begin - box.u_min), row_m_.begin() + (u_end - box.u_min),
-                  0.0F);
-        wanted -= u_end - u_begin;
-      });
-      without_depth += wanted - sums_.AddRow(static_cast<float>(v - v_begin) - half, row_m_);
+    const int v_end = std::min(v_begin + block_px_, interior.box().v_max);
+    sums.Start(interior.box().width(), block_px_);
+    for (int v = v_begin; v < v_end; v += Sums::kMaxRows) {
+      SumRows(depth, interior, v, std::min(Sums::kMaxRows, v_end - v),
+              static_cast<float>(v - v_begin) - half, sums);
     }
-    return without_depth;
+  }
+
+  /// Adds some rows of pixels to the sums.
+  /// @param dv Of the first one from the blocks' middle.
+  template <class Mask>
+  void SumRows(const DepthReader& depth, const Mask& interior, int v_begin, int rows, float dv,
+               Sums& sums) noexcept {
+    std::array<typename Mask::Row, static_cast<std::size_t>(Sums::kMaxRows)> pixels;
+    for (int r = 0; r < rows; ++r)
+      pixels[static_cast<std::size_t>(r)] = interior.RowAt(v_begin + r);
+    const int width = interior.box().width();
+    for (int begin = 0; begin < width; begin += sums.StretchWidth(begin)) {
+      const int count = sums.StretchWidth(begin);
+      const int u = origin_u_ + begin;
+      bool any = false;
+      for (int r = 0; r < rows; ++r) {
+        float* const row_m = sums.stretch_row(r);
+        int wanted = count;
+        depth.ReadRow(v_begin + r, u, u + count, row_m);
+        pixels[static_cast<std::size_t>(r)].ForEachGap(u, u + count, [&](int gap, int gap_end) {
+          std::fill(row_m + (gap - u), row_m + (gap_end - u), 0.0F);
+          wanted -= gap_end - gap;
+        });
+        any = any || wanted > 0;
+      }
+      if (any) sums.AddStretch(begin, count, rows, dv);
+    }
   }
 
   /// @return false if there is no room for more blocks that hold pixels.
@@ -185,8 +214,6 @@ class BlockGrid {
   std::array<std::uint16_t, static_cast<std::size_t>(Limits::kMaxBlocks)> grid_;
   std::array<PixelMoments, static_cast<std::size_t>(kMaxFilledBlocks)> moments_;
   std::array<std::uint16_t, static_cast<std::size_t>(kMaxFilledBlocks)> sample_of_;
-  ColumnSums<Limits::kMaxImageWidth> sums_;
-  typename ColumnSums<Limits::kMaxImageWidth>::Row row_m_;  ///< Depths of an image row.
   int filled_ = 0;
   int origin_u_ = 0;
   int origin_v_ = 0;

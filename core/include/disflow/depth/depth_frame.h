@@ -53,19 +53,26 @@ struct MaskView {
   [[nodiscard]] const std::uint8_t* row(int v) const noexcept {
     return data + static_cast<std::ptrdiff_t>(v) * stride_bytes;
   }
-  /// Calls visit(u) for the pixels [u_begin, u_end) of row v that show the object. @pre given()
-  template <class Visitor>
-  void ForEachIn(int v, int u_begin, int u_end, Visitor&& visit) const noexcept {
-    if (v < 0 || v >= height_px) return;
+  /// The pixels [u_begin, u_begin + count) of row v that show the object as bits, the first one
+  /// lowest. @pre given()
+  /// @param count At most 32.
+  [[nodiscard]] std::uint32_t BitsIn(int v, int u_begin, int count) const noexcept {
+    std::uint32_t bits = 0;
+    if (v < 0 || v >= height_px) return bits;
     const std::uint8_t* const pixels = row(v);
-    const int end = u_end < width_px ? u_end : width_px;
+    const int end = u_begin + count < width_px ? u_begin + count : width_px;
     for (int u = u_begin > 0 ? u_begin : 0; u < end; ++u) {
-      if (label == 0 ? pixels[u] != 0 : pixels[u] == label) visit(u);
+      const bool shown = label == 0 ? pixels[u] != 0 : pixels[u] == label;
+      bits |= static_cast<std::uint32_t>(shown) << static_cast<unsigned>(u - u_begin);
     }
+    return bits;
   }
   /// Whether a pixel shows the object; none outside the image does. @pre given()
   [[nodiscard]] bool Test(int u, int v) const noexcept {
-    if (u < 0 || v < 0 || u >= width_px || v >= height_px) return false;
+    // Negative ones become large.
+    if (static_cast<unsigned>(u) >= static_cast<unsigned>(width_px) ||
+        static_cast<unsigned>(v) >= static_cast<unsigned>(height_px))
+      return false;
     return label == 0 ? row(v)[u] != 0 : row(v)[u] == label;
   }
 };

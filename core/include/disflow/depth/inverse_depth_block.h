@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "disflow/types.h"
@@ -13,20 +14,20 @@ namespace disflow {
 
 /// Sums over the pixels of one block, relative to a pixel (u0, v0) and a reference inverse depth,
 /// so that float suffices.
-struct PixelMoments {
-  // No initial values: thousands of blocks lie in memory that is new in every frame. PixelMoments{}
-  // holds no pixel.
-  float n;
-  float u, v, w;
-  float uu, uv, vv;
-  float uw, vw, ww;
-  float w_reference;  ///< [1/m]
+/// @tparam Number float, or an array of them: as many blocks side by side.
+template <class Number>
+struct MomentsOf {
+  // No initial values: thousands of blocks lie in memory that is new in every frame.
+  Number n;
+  Number u, v, w;
+  Number uu, uv, vv;
+  Number uw, vw, ww;
+  Number w_reference;  ///< [1/m]
 
-  /// Adds another block's sums, whose origin lies (du, dv) pixels from this one's.
-  void Merge(const PixelMoments& other, float du, float dv) noexcept {
-    if (other.n == 0.0F) return;
-    if (n == 0.0F) w_reference = other.w_reference;
-    const float dw = other.w_reference - w_reference;
+  /// Adds another block's sums, whose origin lies (du, dv) pixels from this one's, to a block that
+  /// holds pixels. A block without any adds nothing.
+  void Add(const MomentsOf& other, float du, float dv) noexcept {
+    const Number dw = other.w_reference - w_reference;
     n += other.n;
     u += other.u + other.n * du;
     v += other.v + other.n * dv;
@@ -37,6 +38,16 @@ struct PixelMoments {
     uw += other.uw + du * other.w + dw * other.u + other.n * du * dw;
     vw += other.vw + dv * other.w + dw * other.v + other.n * dv * dw;
     ww += other.ww + dw * (2.0F * other.w + other.n * dw);
+  }
+};
+
+/// PixelMoments{} holds no pixel.
+struct PixelMoments : MomentsOf<float> {
+  /// Adds another block's sums, whose origin lies (du, dv) pixels from this one's.
+  void Merge(const PixelMoments& other, float du, float dv) noexcept {
+    if (other.n == 0.0F) return;
+    if (n == 0.0F) w_reference = other.w_reference;
+    Add(other, du, dv);
   }
 };
 
@@ -85,7 +96,7 @@ struct InverseDepthPlane {
     plane.slope_v = plane.inverse_uv * cuw + plane.inverse_vv * cvw;
     plane.mean_w = m.w_reference + m.w * inverse_n;
     const float residual = cww - plane.slope_u * cuw - plane.slope_v * cvw;
-    plane.residual_variance = std::fmax(residual, 0.0F) / (m.n - 3.0F);
+    plane.residual_variance = std::max(0.0F, residual) / (m.n - 3.0F);
     plane.valid = true;
     return plane;
   }

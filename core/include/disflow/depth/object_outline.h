@@ -85,7 +85,7 @@ class ObjectOutline {
     int missed = 0;
     for (const OutlinePoint& point : points_) {
       int offset_px = 0;
-      if (!FindOutline(given, point.pixel, point.inward, kReachPx, offset_px)) {
+      if (!FindOutline<kReachPx>(given, point.pixel, point.inward, offset_px)) {
         ++missed;
       } else if (offset_px > 1) {
         ++inside;
@@ -104,7 +104,7 @@ class ObjectOutline {
     for (int i = 0; i < points_.size(); ++i) {
       int offset_px = 0;
       const OutlinePoint& point = points_[i];
-      if (!FindOutline(given, point.pixel, point.inward, kReachPx, offset_px)) continue;
+      if (!FindOutline<kReachPx>(given, point.pixel, point.inward, offset_px)) continue;
       const PixelAt moved(point.At(static_cast<float>(offset_px)));
       OutlinePoint on_mask;
       if (FitOutline(given, moved.u, moved.v, on_mask)) points_[kept++] = on_mask;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 
 #include "disflow/geometry/pinhole_camera.h"
 #include "disflow/memory/fixed_vector.h"
@@ -46,8 +47,25 @@ inline constexpr int kOutlineDiskPixels = [] {
   return pixels;
 }();
 
+/// Of any pixels of one of the disk's rows: how many they are, and the sum of their places in it.
+struct OutlineRowSums {
+  std::int8_t count;
+  std::int8_t places;
+};
+inline constexpr auto kOutlineRowSums = [] {
+  std::array<OutlineRowSums, 1U << (2 * kOutlineDiskPx + 1)> sums{};
+  for (std::size_t bits = 0; bits < sums.size(); ++bits) {
+    for (int place = 0; place <= 2 * kOutlineDiskPx; ++place) {
+      const auto here = static_cast<std::int8_t>((bits >> static_cast<unsigned>(place)) & 1U);
+      sums[bits].count = static_cast<std::int8_t>(sums[bits].count + here);
+      sums[bits].places = static_cast<std::int8_t>(sums[bits].places + here * place);
+    }
+  }
+  return sums;
+}();
+
 /// Fits a line to the mask's outline within a disk.
-/// @param mask Has ForEachIn(v, u_begin, u_end, visit), as PixelMask.
+/// @param mask Has BitsIn(v, u_begin, count), as PixelMask.
 /// @return false at corners and thin parts; `point` is undefined then.
 template <class Mask>
 [[nodiscard]] bool FitOutline(const Mask& mask, int u, int v, OutlinePoint& point) noexcept {
@@ -57,13 +75,11 @@ template <class Mask>
   int inside = 0;
   for (int dv = -kRadius; dv <= kRadius; ++dv) {
     const int half = kOutlineDiskHalfWidths[static_cast<std::size_t>(dv + kRadius)];
-    int in_row = 0;
-    mask.ForEachIn(v + dv, u - half, u + half + 1, [&](int set_u) {
-      ++in_row;
-      sum_u += set_u - u;
-    });
-    inside += in_row;
-    sum_v += dv * in_row;
+    const OutlineRowSums& row =
+        kOutlineRowSums[static_cast<std::size_t>(mask.BitsIn(v + dv, u - half, 2 * half + 1))];
+    sum_u += row.places - half * row.count;
+    inside += row.count;
+    sum_v += dv * row.count;
   }
   const Vec2 sum(static_cast<float>(sum_u), static_cast<float>(sum_v));
   const float norm = sum.norm();
@@ -81,18 +97,28 @@ template <class Mask>
 }
 
 /// Where a mask begins, from outside inwards.
+/// @tparam kReachPx How far from the place it is looked for, to either side.
+/// @param place In the image or near it.
 /// @param offset_px Of the first pixel inside, inwards of `place`.
-/// @return false if it does not begin within reach_px of a place.
-template <class Mask>
+/// @return false if it does not begin within reach.
+template <int kReachPx, class Mask>
 [[nodiscard]] bool FindOutline(const Mask& mask, const Vec2& place, const Vec2& inward,
-                               int reach_px, int& offset_px) noexcept {
-  const auto inside = [&](int step) {
-    const PixelAt p(Vec2(place + static_cast<float>(step) * inward));
-    return mask.Test(p.u, p.v);
-  };
-  offset_px = -reach_px;
-  while (offset_px <= reach_px && !inside(offset_px)) ++offset_px;
-  return offset_px > -reach_px && offset_px <= reach_px;
+                               int& offset_px) noexcept {
+  constexpr int kSteps = 2 * kReachPx + 1;
+  constexpr int kGroup = 4;
+  // In whole groups, for vector instructions: all pixels first, though half of them are not needed.
+  constexpr auto kCount = static_cast<std::size_t>((kSteps + kGroup - 1) / kGroup * kGroup);
+  std::array<int, kCount> u;
+  std::array<int, kCount> v;
+  for (std::size_t i = 0; i < kCount; ++i) {
+    const auto step = static_cast<float>(static_cast<int>(i) - kReachPx);
+    u[i] = PixelAt::NearestInReach(place.x() + step * inward.x());
+    v[i] = PixelAt::NearestInReach(place.y() + step * inward.y());
+  }
+  std::size_t i = 0;
+  while (i < static_cast<std::size_t>(kSteps) && !mask.Test(u[i], v[i])) ++i;
+  offset_px = static_cast<int>(i) - kReachPx;
+  return i > 0 && i < static_cast<std::size_t>(kSteps);
 }
 
 /// How ragged a mask's outline is, at the scale at which lines are fitted to it: from third
@@ -134,7 +160,7 @@ class OutlineNoise {
     for (int i = -1; i <= 1; ++i) {
       int one_px = 0;
       const Vec2 start = place + kThird_px * static_cast<float>(i) * point.along();
-      if (!FindOutline(mask, start, point.inward, kReachPx, one_px)) return false;
+      if (!FindOutline<kReachPx>(mask, start, point.inward, one_px)) return false;
       offset_px += static_cast<float>(one_px) / 3.0F;
     }
     return true;

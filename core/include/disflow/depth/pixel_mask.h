@@ -86,7 +86,10 @@ class PixelMask {
   }
 
   [[nodiscard]] bool Test(int u, int v) const noexcept {
-    if (u < 0 || v < 0 || u >= width_px_ || v >= height_px_) return false;
+    // Negative ones become large.
+    if (static_cast<unsigned>(u) >= static_cast<unsigned>(width_px_) ||
+        static_cast<unsigned>(v) >= static_cast<unsigned>(height_px_))
+      return false;
     return row(v).Test(u);
   }
 
@@ -97,14 +100,13 @@ class PixelMask {
   /// Words of a row that the image reaches; the others have no meaning.
   [[nodiscard]] int words() const noexcept { return (width_px_ + kBits - 1) / kBits; }
 
-  /// Calls visit(u) for the set pixels [u_begin, u_end) of row v, which may lie outside the image.
-  template <class Visitor>
-  void ForEachIn(int v, int u_begin, int u_end, Visitor&& visit) const noexcept {
-    if (v < 0 || v >= height_px_) return;
-    const int end = std::min(u_end, width_px_);
-    for (int u = std::max(u_begin, 0); u < end; ++u) {
-      if (row(v).Test(u)) visit(u);
-    }
+  /// The pixels [u_begin, u_begin + count) of row v as bits, the first one lowest; none is set
+  /// outside of the image.
+  [[nodiscard]] Word BitsIn(int v, int u_begin, int count) const noexcept {
+    if (v < 0 || v >= height_px_) return 0;
+    const int begin = std::max(u_begin, 0);
+    const int end = std::min(u_begin + count, width_px_);
+    return begin < end ? row(v).Bits(begin, end - begin) << (begin - u_begin) : 0;
   }
 
   /// Calls visit(u) for every set pixel of row v one of whose four neighbours is not set, from left
@@ -136,7 +138,8 @@ class PixelMask {
     int last = -1;
     for (int w = w_begin; w < w_end; ++w) {
       if (bits[w] == 0) continue;
-      count += std::popcount(bits[w]);
+      // Most words are full, and counting calls a function on many processors.
+      count += bits[w] == ~Word{0} ? kBits : std::popcount(bits[w]);
       if (first < 0) first = w * kBits + std::countr_zero(bits[w]);
       last = w * kBits + kBits - 1 - std::countl_zero(bits[w]);
     }
@@ -156,6 +159,11 @@ class PixelMask {
     int u = u_begin;
     for (; u < u_end && u % kBits != 0; ++u) SetBit(v, u, wanted(bytes[u]));
     for (; u + kBits <= u_end; u += kBits) {
+      // Most of an image is not the object. (All of it zero is no label either: labels are not 0.)
+      if (AreZero(bytes + u)) {
+        row(v)[u / kBits] = 0;
+        continue;
+      }
       Word bits = 0;
       for (int i = 0; i < kBits; i += 8) {
         bits |= DifferingBytes<kEqual>(bytes + u + i, value) << i;
@@ -163,6 +171,15 @@ class PixelMask {
       row(v)[u / kBits] = kEqual ? ~bits : bits;
     }
     for (; u < u_end; ++u) SetBit(v, u, wanted(bytes[u]));
+  }
+
+  /// Whether the bytes of a whole word of pixels are all 0.
+  [[nodiscard]] static bool AreZero(const std::uint8_t* bytes) noexcept {
+    std::array<Word, static_cast<std::size_t>(kBits) / sizeof(Word)> eights;
+    std::memcpy(eights.data(), bytes, sizeof eights);
+    Word any = 0;
+    for (const Word eight : eights) any |= eight;
+    return any == 0;
   }
 
   void SetBit(int v, int u, bool on) noexcept {
@@ -199,6 +216,8 @@ class PixelMask {
 template <class Mask>
 class ErodedMask {
  public:
+  using Row = typename Mask::Row;
+
   /// @param source Must not change while this is used.
   ErodedMask(const Mask& source, int radius_px) noexcept
       : source_(source),
@@ -215,9 +234,9 @@ class ErodedMask {
   [[nodiscard]] int count() const noexcept { return count_; }
 
   /// Row v, inside of box(); what is beside the box has no meaning.
-  [[nodiscard]] typename Mask::Row RowAt(int v) const noexcept {
+  [[nodiscard]] Row RowAt(int v) const noexcept {
     using Word = typename Mask::Word;
-    typename Mask::Row bits;
+    Row bits;
     for (int w = w_begin_; w < w_end_; ++w) bits[w] = source_.row(v)[w];
     for (int dv = 1; dv <= radius_px_; ++dv) {
       for (int w = w_begin_; w < w_end_; ++w)

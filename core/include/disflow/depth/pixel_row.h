@@ -57,6 +57,14 @@ struct PixelRow {
                 [&](int w, Word bits) { count += std::popcount((*this)[w] & bits); });
     return count;
   }
+  /// The pixels [u, u + count) as bits, the first one lowest.
+  /// @param count From 1 to 63.
+  [[nodiscard]] Word Bits(int u, int count) const noexcept {
+    const int first = u % kBits;
+    Word bits = (*this)[u / kBits] >> first;
+    if (first + count > kBits) bits |= (*this)[u / kBits + 1] << (kBits - first);
+    return bits & ((Word{1} << count) - 1);
+  }
   [[nodiscard]] bool Test(int u) const noexcept { return ((*this)[u / kBits] >> (u % kBits)) & 1U; }
 
   /// visit(begin, end) for every stretch of [u_begin, u_end) whose pixels are not marked.

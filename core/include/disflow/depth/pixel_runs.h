@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -103,6 +104,7 @@ class PixelRuns {
 
  private:
   using Row = std::array<float, static_cast<std::size_t>(kMaxWidth)>;
+  static constexpr int kPart_px = 32;  ///< Of a row, looked at together.
 
   [[nodiscard]] Row& row_m() noexcept { return rows_m_[current_]; }
   [[nodiscard]] PixelRun& run(int i) noexcept { return runs_[static_cast<std::size_t>(i)]; }
@@ -119,7 +121,28 @@ class PixelRuns {
   void FlagChanges(int width, float jump_ratio) noexcept {
     const Row& depths_m = row_m();
     changes_[0] = depths_m[0] > 0.0F ? 1 : 0;
-    for (int i = 1; i < width; ++i) {
+    for (int begin = 1; begin < width; begin += kPart_px) {
+      const int end = std::min(begin + kPart_px, width);
+      // Much of a row is nothing.
+      if (end - begin == kPart_px && IsEmpty(depths_m.data() + begin - 1)) {
+        std::fill_n(changes_.begin() + begin, kPart_px, std::uint8_t{0});
+      } else {
+        FlagChanges(begin, end, jump_ratio);
+      }
+    }
+    const int end = (width + kFlagsAtOnce - 1) / kFlagsAtOnce * kFlagsAtOnce;
+    std::fill(changes_.begin() + width, changes_.begin() + end, std::uint8_t{0});
+  }
+
+  /// Whether none of the pixels of a part and the one before it has depth.
+  [[nodiscard]] static bool IsEmpty(const float* depths_m) noexcept {
+    const Eigen::Map<const Eigen::Array<float, kPart_px, 1>> part_m(depths_m + 1);
+    return depths_m[0] <= 0.0F && part_m.maxCoeff() <= 0.0F;
+  }
+
+  void FlagChanges(int begin, int end, float jump_ratio) noexcept {
+    const Row& depths_m = row_m();
+    for (int i = begin; i < end; ++i) {
       const float left_m = depths_m[static_cast<std::size_t>(i - 1)];
       const float here_m = depths_m[static_cast<std::size_t>(i)];
       const float nearer_m = left_m < here_m ? left_m : here_m;
@@ -127,8 +150,6 @@ class PixelRuns {
       const int jumps = int{std::abs(here_m - left_m) > jump_ratio * nearer_m};
       changes_[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(jumps);
     }
-    const int end = (width + kFlagsAtOnce - 1) / kFlagsAtOnce * kFlagsAtOnce;
-    std::fill(changes_.begin() + width, changes_.begin() + end, std::uint8_t{0});
   }
 
   /// visit(i) for the flagged pixels, from left to right.

@@ -13,8 +13,10 @@
 #include "disflow/depth/inverse_depth_block.h"
 #include "disflow/depth/sensor_noise.h"
 #include "disflow/depth/surface_sample.h"
+#include "disflow/depth/whole_windows.h"
 #include "disflow/estimate.h"
 #include "disflow/memory/fixed_vector.h"
+#include "disflow/memory/stage_scratch.h"
 
 namespace disflow {
 
@@ -47,15 +49,23 @@ class SurfaceSampler {
               const SamplerConfig& config, Samples& samples, Counters& counters) noexcept {
     samples.clear();
     samples_ = &samples;
-    counters.pixels_out_of_range +=
-        static_cast<std::uint32_t>(grid_.Build(depth, interior, config));
+    counters.pixels_out_of_range += static_cast<std::uint32_t>(
+        grid_.Build(depth, interior, config, passes_.template Begin<typename Grid::Sums>()));
     noise_std_ = config.inverse_depth_std_per_m > 0.0F
                      ? config.inverse_depth_std_per_m
                      : std::max({noise_.PixelNoise(grid_), noise_.BlockNoise(grid_),
                                  config.min_inverse_depth_std_per_m});
+    auto& windows = passes_.template Begin<WholeWindows>();
     for (int row = 0; row < grid_.rows(); ++row) {
-      for (int column = 0; column < grid_.columns(); ++column)
-        FitBlock(camera, config, column, row, samples, counters);
+      // Many windows at a time, for vector instructions.
+      for (int first = 0; first < grid_.columns(); first += WholeWindows::kMost) {
+        const int end = std::min(first + WholeWindows::kMost, grid_.columns());
+        const int begin = grid_.FirstFilled(first, end, row);
+        if (begin == end) continue;
+        windows.Merge(grid_, begin, row, end - begin);
+        for (int column = begin; column < end; ++column)
+          FitBlock(camera, config, column, row, windows.at(column - begin), samples, counters);
+      }
     }
   }
 
@@ -79,8 +89,9 @@ class SurfaceSampler {
  private:
   using Grid = BlockGrid<Limits>;
 
+  /// @param whole The block's whole window.
   void FitBlock(const PinholeCamera& camera, const SamplerConfig& config, int column, int row,
-                Samples& samples, Counters& counters) noexcept {
+                const WholeWindow& whole, Samples& samples, Counters& counters) noexcept {
     const PixelMoments& own = grid_.block(column, row);
     if (own.n == 0.0F) return;
     const auto area = static_cast<float>(grid_.block_px() * grid_.block_px());
@@ -89,7 +100,7 @@ class SurfaceSampler {
       return;
     }
     float bend = 0.0F;
-    const InverseDepthPlane plane = BestPlane(config, column, row, own, bend);
+    const InverseDepthPlane plane = BestPlane(config, column, row, whole, own, bend);
     if (!plane.valid) {
       ++counters.blocks_flying;
       return;
@@ -108,7 +119,8 @@ class SurfaceSampler {
 
   /// @param bend Of the surface from the plane at the block [1/m].
   [[nodiscard]] InverseDepthPlane BestPlane(const SamplerConfig& config, int column, int row,
-                                            const PixelMoments& own, float& bend) const noexcept {
+                                            const WholeWindow& whole, const PixelMoments& own,
+                                            float& bend) const noexcept {
     const float noise_variance = noise_std_ * noise_std_;
     const float limit = config.max_residual_sigmas * config.max_residual_sigmas * noise_variance;
     const float own_u = own.u / own.n;
@@ -119,11 +131,13 @@ class SurfaceSampler {
     const float allowed_bend = config.max_bend_ratio * own_w;
     InverseDepthPlane best;
     for (std::size_t i = 0; i < kBlockWindows.size(); ++i) {
-      InverseDepthPlane plane =
-          InverseDepthPlane::Fit(grid_.MergeWindow(column, row, kBlockWindows[i]));
+      InverseDepthPlane plane = InverseDepthPlane::Fit(
+          i == 0 ? whole.sums : grid_.MergeWindow(column, row, kBlockWindows[i]));
       if (!plane.valid) continue;
       if (i == 0) {
-        const CurvedWindow curved = FitCurve(column, row, plane);
+        const CurvedWindow curved = CurvedWindow::Fit(
+            whole.bends, plane, static_cast<float>(grid_.block_px() * grid_.block_px()),
+            noise_variance);
         if (curved.valid &&
             curved.residual_variance <= limit + kRipple * allowed_bend * allowed_bend) {
           bend = curved.bend;
@@ -142,16 +156,6 @@ class SurfaceSampler {
       if (i == 0 && plane.residual_variance <= limit) break;
     }
     return best;
-  }
-
-  [[nodiscard]] CurvedWindow FitCurve(int column, int row,
-                                      const InverseDepthPlane& plane) const noexcept {
-    if (!grid_.HasRing(column, row)) return {};
-    CurvedWindow::Blocks blocks;
-    for (int i = 0; i < 9; ++i)
-      blocks[static_cast<std::size_t>(i)] = &grid_.block(column + i % 3 - 1, row + i / 3 - 1);
-    return CurvedWindow::Fit(blocks, plane, static_cast<float>(grid_.block_px() * grid_.block_px()),
-                             noise_std_ * noise_std_);
   }
 
   [[nodiscard]] bool MakeSample(const PinholeCamera& camera, const SamplerConfig& config,
@@ -178,7 +182,7 @@ class SurfaceSampler {
     if (sample.cos_incidence < config.min_cos_incidence) return false;
     // dz = z^2 dw along the ray; projected onto the normal.
     const float effective_std =
-        std::sqrt(std::fmax(noise_std_ * noise_std_, plane.residual_variance));
+        std::sqrt(std::max(noise_std_ * noise_std_, plane.residual_variance));
     const float along_normal = depth_m * depth_m * ray_norm * sample.cos_incidence * effective_std;
     const float floor = config.sample_floor_m * config.sample_floor_m;
     sample.variance_m2 = along_normal * along_normal / own.n + floor;
@@ -196,6 +200,8 @@ class SurfaceSampler {
       0.05F;  ///< Third order allowed, as share of the second, squared.
 
   Grid grid_;
+  /// Building the grid and fitting to it follow each other.
+  StageScratch<typename Grid::Sums, WholeWindows> passes_;
   SensorNoise noise_;
   const Samples* samples_ = nullptr;  ///< Of the last frame, for SurfaceAt().
   float noise_std_ = 0.0F;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "disflow/estimate.h"
 #include "disflow/field/cluster.h"
@@ -53,13 +54,28 @@ class ClusterStore {
                                    float min_cos) const noexcept {
     Handle best = kNoHandle;
     float best_squared = 0.0F;
-    ForEachNear(x_m, radius_m, [&](Handle handle, const ClusterType& cluster) {
-      if (cluster.mean_normal.dot(normal) < min_cos) return;
-      const float squared = (cluster.centroid_m - x_m).squaredNorm();
-      if (best == kNoHandle || squared < best_squared) {
-        best = handle;
-        best_squared = squared;
+    const auto look_into = [&](Handle leaf) {
+      for (Handle h = tree_.head(leaf); h != kNoHandle; h = clusters_[h].next) {
+        const ClusterType& cluster = clusters_[h];
+        if (cluster.mean_normal.dot(normal) < min_cos) continue;
+        const float squared = (cluster.centroid_m - x_m).squaredNorm();
+        if (best == kNoHandle || squared < best_squared) {
+          best = h;
+          best_squared = squared;
+        }
       }
+    };
+    // Most often the own cell has one, and cells that are farther off need not be looked into.
+    OctreeCell cell;
+    const Handle own = tree_.CellAt(x_m, cell) ? tree_.FindLeaf(cell) : kNoHandle;
+    if (own != kNoHandle) look_into(own);
+    const float reach_m =
+        best == kNoHandle
+            ? radius_m
+            : std::min(radius_m, std::sqrt(best_squared) + kWander * tree_.cell_size_m());
+    const Vec3 reach = Vec3::Constant(reach_m);
+    tree_.ForEachLeafInBox(x_m - reach, x_m + reach, [&](const OctreeCell&, Handle leaf) {
+      if (leaf != own) look_into(leaf);
     });
     return best;
   }
@@ -108,6 +124,9 @@ class ClusterStore {
   }
 
  private:
+  /// How far the centroid of averaged samples may have left its cell, in cells.
+  static constexpr float kWander = 0.1F;
+
   [[nodiscard]] Handle SelectSide(Handle leaf, const Vec3& normal) const noexcept {
     Handle best = kNoHandle;
     float best_cos = crease_cos_;

@@ -95,7 +95,7 @@ int DistanceField<Limits>::SpreadSelection(Candidates& candidates, const Vec3& c
       const float squared =
           (candidates[i].position_m - candidates[chosen].position_m).squaredNorm();
       float& known = nearest_squared[static_cast<std::size_t>(i)];
-      known = chosen == 0 ? squared : std::fmin(known, squared);
+      known = chosen == 0 ? squared : std::min(known, squared);
     }
   }
   return wanted;

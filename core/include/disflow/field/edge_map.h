@@ -32,8 +32,11 @@ struct ModelEdge {
 /// The edge that a first point makes.
 [[nodiscard]] ModelEdge MakeModelEdge(const EdgePoint& point, std::uint32_t frame) noexcept;
 
-/// The nearest edge with the same direction and side as a point, within radius_m. Directions are
-/// compared as the image shows them: how an edge runs in depth a noisy sensor hardly sees.
+/// Whether a point may show an edge: by direction, side, and how well the edge is known. Directions
+/// are compared as the image shows them: how an edge runs in depth a noisy sensor hardly sees.
+[[nodiscard]] bool IsSeenAs(const ModelEdge& edge, const EdgePoint& point) noexcept;
+
+/// The nearest edge that a point may show, within radius_m.
 /// @return Its index, or -1.
 [[nodiscard]] int FindNearestEdge(std::span<const ModelEdge> edges, const EdgePoint& point,
                                   float radius_m) noexcept;
@@ -72,10 +75,8 @@ class EdgeMap {
   [[nodiscard]] const EdgeRounding& rounding() const noexcept { return rounding_; }
   void SetRounding(const EdgeRounding& rounding) noexcept { rounding_ = rounding; }
 
-  /// The nearest edge with the same direction and side, within radius_m; or null.
-  [[nodiscard]] const Edge* FindNearest(const EdgePoint& point, float radius_m) const noexcept {
-    const int nearest = FindNearestEdge(all(), point, radius_m);
-    return nearest < 0 ? nullptr : &edges_[nearest];
+  [[nodiscard]] std::span<const Edge> all() const noexcept {
+    return {edges_.begin(), edges_.end()};
   }
 
   /// Fuses a steady point into the edge near it, or stores it, if the map is full for another.
@@ -99,10 +100,6 @@ class EdgeMap {
   }
 
  private:
-  [[nodiscard]] std::span<const Edge> all() const noexcept {
-    return {edges_.begin(), edges_.end()};
-  }
-
   FixedVector<Edge, kMaxEdges> edges_;
   EdgeRounding rounding_;
 };

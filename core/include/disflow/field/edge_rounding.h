@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "disflow/types.h"
@@ -23,7 +24,7 @@ struct EdgeRounding {
 /// @param outward Unit vector away from the object, across ray and edge.
 /// @param normal Of the face that ends at the edge.
 [[nodiscard]] inline float OutlineOffset(const Vec3& outward, const Vec3& normal) noexcept {
-  const float sine = std::fmin(std::fmax(outward.dot(normal), 0.0F), 1.0F);
+  const float sine = std::min(1.0F, std::max(0.0F, outward.dot(normal)));
   return 1.0F - sine - std::sqrt(1.0F - sine * sine);
 }
 

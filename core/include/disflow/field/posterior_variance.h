@@ -61,7 +61,7 @@ class PosteriorVariance {
   /// Of the GP that is factorised.
   [[nodiscard]] float Posterior(Handle handle, const Vec3& x_m) const noexcept {
     const auto& gp = field_.store()[handle].gp;
-    return std::fmax(workspace_.Covariance(gp, x_m)(0, 0), 0.0F);
+    return std::fmax(workspace_.Variance(gp, x_m), 0.0F);
   }
 
   /// Mean over the samples, those near x first of all.

@@ -5,6 +5,7 @@
 
 #include "disflow/config.h"
 #include "disflow/depth/surface_sample.h"
+#include "disflow/field/edge_index.h"
 #include "disflow/field/edge_map.h"
 #include "disflow/flow/residual.h"
 #include "disflow/memory/fixed_vector.h"
@@ -27,11 +28,20 @@ class EdgeResiduals {
  public:
   using Model = EdgeMap<Limits::kMaxModelEdges>;
   using Edges = FixedVector<EdgePoint, Limits::kMaxEdgePoints>;
+  using Index = EdgeIndex<Limits::kMaxModelEdges>;
 
   /// Keeps references to its arguments.
   /// @param edges Camera frame.
-  EdgeResiduals(const Model& model, const Edges& edges, const RegistrationConfig& config) noexcept
-      : model_(model), edges_(edges), config_(config), radius_m_(known_rounding().radius_m) {}
+  /// @param index Memory for that of the model.
+  EdgeResiduals(const Model& model, const Edges& edges, const RegistrationConfig& config,
+                Index& index) noexcept
+      : model_(model),
+        edges_(edges),
+        config_(config),
+        index_(index),
+        radius_m_(known_rounding().radius_m) {
+    index_.Build(model.all());
+  }
 
   [[nodiscard]] int size() const noexcept { return edges_.size(); }
   /// What was known of the edges' rounding before this frame.
@@ -48,7 +58,7 @@ class EdgeResiduals {
     const bool search = matching != Matching::kLinear;
     if (search || known != nullptr) {
       const EdgePoint moved = T_oc * edges_[i];
-      if (search) known = model_.FindNearest(moved, config_.match_radius_m + scale_m);
+      if (search) known = index_.FindNearest(moved, config_.match_radius_m + scale_m);
       if (known != nullptr) residual = EdgeResidualOf(moved, *known, radius_m_);
     }
     const bool unmatched = residual.status == ResidualStatus::kUnmatched;
@@ -60,6 +70,7 @@ class EdgeResiduals {
   const Model& model_;
   const Edges& edges_;
   const RegistrationConfig& config_;
+  Index& index_;
   float radius_m_;
   /// What an edge was matched with; written by the first search.
   std::array<const ModelEdge*, static_cast<std::size_t>(Limits::kMaxEdgePoints)> known_{};

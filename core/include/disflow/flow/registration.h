@@ -85,8 +85,8 @@ class Registration {
   /// Share of the observed occluding edges that lie on edges of the model, 0..1, of those that
   /// should. Tells apart poses between which the surface could slide.
   [[nodiscard]] float EdgeScore(const Model& model_edges, const RegistrationConfig& config,
-                                const PoseObjectFromCamera& T_oc) const noexcept {
-    EdgeResiduals<Limits> edges(model_edges, *edges_, config);
+                                const PoseObjectFromCamera& T_oc) noexcept {
+    EdgeResiduals<Limits> edges(model_edges, *edges_, config, edge_index_);
     float sum = 0.0F;
     int expected = 0;
     for (int i = 0; i < edges.size(); ++i) {
@@ -141,6 +141,7 @@ class Registration {
 
   Samples samples_;
   typename SurfaceResiduals<Limits>::Known known_;
+  typename EdgeResiduals<Limits>::Index edge_index_;
   Vec3 center_c_ = Vec3::Zero();
   const Edges* edges_ = nullptr;
 };

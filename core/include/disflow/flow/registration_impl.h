@@ -15,7 +15,7 @@ RegistrationResult Registration<Limits>::Align(const Field& field, const Model& 
                                                const PoseObjectFromCamera& T_predicted,
                                                RobustScale scale, int iterations) noexcept {
   SurfaceResiduals<Limits> surfaces(field, samples_, config, known_);
-  EdgeResiduals<Limits> edges(model_edges, *edges_, config);
+  EdgeResiduals<Limits> edges(model_edges, *edges_, config, edge_index_);
   Result result;
   result.T_oc = T_start;
   result.points = samples_.size();

@@ -60,15 +60,19 @@ struct PixelAt {
   int u;
   int v;
 
+  /// The same along one axis, of a place that is known to be nearer than that.
+  [[nodiscard]] static int NearestInReach(float px) noexcept {
+    // As std::lround(), which most compilers call as a function: a fifth of the time of the edges.
+    const int whole = static_cast<int>(px);
+    const float rest_px = px - static_cast<float>(whole);
+    return whole + int{rest_px >= 0.5F} - int{rest_px <= -0.5F};
+  }
+
  private:
-  /// As std::lround(), which most compilers call as a function: a fifth of the time of the edges.
   [[nodiscard]] static int Nearest(float px) noexcept {
     constexpr float kFarthest_px = 1e6F;
     const float above_px = px > -kFarthest_px ? px : -kFarthest_px;  // NaN too
-    const float near_px = above_px < kFarthest_px ? above_px : kFarthest_px;
-    const int whole = static_cast<int>(near_px);
-    const float rest_px = near_px - static_cast<float>(whole);
-    return whole + int{rest_px >= 0.5F} - int{rest_px <= -0.5F};
+    return NearestInReach(above_px < kFarthest_px ? above_px : kFarthest_px);
   }
 };
 
