@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cstdio>
 #include <exception>
+#include <string>
 #include <system_error>
 
 #include "input/sensor_choice.h"
+#include "program/console.h"
 #include "program/exit_status.h"
 #include "program/out_of_memory.h"
 #include "program/stop_signal.h"
@@ -23,7 +25,8 @@ ExitStatus Print(const std::string& text) {
   return kDone;
 }
 
-ExitStatus Main(int argc, char** argv) {
+/// @param log Where messages go, as soon as it is known.
+ExitStatus Main(int argc, char** argv, std::string& log) {
   bool exit_now = false;
   const Options options = ParseCommandLine(argc, argv, exit_now);
   if (exit_now) return kDone;
@@ -32,7 +35,8 @@ ExitStatus Main(int argc, char** argv) {
   if (options.print_settings_table) return Print(FormatSettingsPage());
   if (options.print_config) return Print(FormatSettings(options.config));
   InstallStopSignals();
-  return Run(options);
+  log = options.log;
+  return Run(options, {argc, argv});
 }
 
 }  // namespace
@@ -40,20 +44,23 @@ ExitStatus Main(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   disflow::apps::EndWhenOutOfMemory();
+  std::string log = "auto";
   try {
-    return disflow::apps::Main(argc, argv);
+    return disflow::apps::Main(argc, argv, log);
   } catch (const disflow::apps::Failure& failure) {
-    std::fprintf(stderr, "disflow_track: %s\n", failure.what());
+    disflow::apps::Console(false, log).Say(failure.what(), disflow::apps::Severity::kError);
     return failure.status();
   } catch (const std::system_error& error) {
     // Of the standard library's, which says no more than "Resource temporarily unavailable".
-    std::fprintf(stderr,
-                 "disflow_track: a thread cannot be started: %s; allow more threads or memory "
-                 "(ulimit -u and -v, TasksMax= and MemoryMax= of the service)\n",
-                 error.what());
+    disflow::apps::Console(false, log)
+        .Say(
+            std::string("a thread cannot be started: ") + error.what() +
+                "; allow more threads or memory (ulimit -u and -v, TasksMax= and MemoryMax= of the "
+                "service)",
+            disflow::apps::Severity::kError);
     return disflow::apps::kInputFailed;
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "disflow_track: %s\n", error.what());
+    disflow::apps::Console(false, log).Say(error.what(), disflow::apps::Severity::kError);
     return disflow::apps::kInputFailed;
   }
 }

@@ -30,4 +30,13 @@ ConfigIssue Validate(const Config& config) noexcept {
   return issue;
 }
 
+Config AdjustedAtRunTime(const Config& now, const Config& wanted) noexcept {
+  Config adjusted = wanted;
+  static_cast<ObjectStart&>(adjusted.segmenter) = now.segmenter;
+  adjusted.field = now.field;
+  adjusted.field.retrain_budget = wanted.field.retrain_budget;
+  adjusted.field.fuse_budget = wanted.field.fuse_budget;
+  return adjusted;
+}
+
 }  // namespace disflow

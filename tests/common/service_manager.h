@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <gtest/gtest.h>
-#include <sys/socket.h>
-#include <sys/un.h>
 #include <unistd.h>
 
-#include <array>
-#include <cstddef>
 #include <cstdlib>
-#include <cstring>
 #include <string>
 #include <vector>
+
+#include "named_datagrams.h"
 
 namespace disflow::test {
 
@@ -25,21 +21,13 @@ class ServiceManager {
   }
 
   /// @param name A path, or after '@' an abstract name.
-  explicit ServiceManager(const std::string& name = AbstractName())
-      : socket_(::socket(AF_UNIX, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)) {
-    sockaddr_un own{};
-    own.sun_family = AF_UNIX;
-    std::memcpy(own.sun_path, name.data(), name.size());
-    if (name[0] == '@') own.sun_path[0] = '\0';
-    const auto size = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + name.size());
-    EXPECT_EQ(::bind(socket_, reinterpret_cast<const sockaddr*>(&own), size), 0);
+  explicit ServiceManager(const std::string& name = AbstractName()) : socket_(name) {
     ::setenv("NOTIFY_SOCKET", name.c_str(), 1);
   }
   ServiceManager(const ServiceManager&) = delete;
   ServiceManager& operator=(const ServiceManager&) = delete;
   ~ServiceManager() {
     for (const char* name : {"NOTIFY_SOCKET", "WATCHDOG_USEC", "WATCHDOG_PID"}) ::unsetenv(name);
-    ::close(socket_);
   }
 
   /// Wants to hear from services at least so often.
@@ -48,18 +36,10 @@ class ServiceManager {
   }
 
   /// What has come since the last call.
-  [[nodiscard]] std::vector<std::string> Received() const {
-    std::vector<std::string> messages;
-    std::array<char, 512> buffer{};
-    for (;;) {
-      const ssize_t size = ::recv(socket_, buffer.data(), buffer.size(), 0);
-      if (size < 0) return messages;
-      messages.emplace_back(buffer.data(), static_cast<std::size_t>(size));
-    }
-  }
+  [[nodiscard]] std::vector<std::string> Received() const { return socket_.Received(); }
 
  private:
-  int socket_;
+  NamedDatagrams socket_;
 };
 
 }  // namespace disflow::test

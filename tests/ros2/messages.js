@@ -64,9 +64,34 @@ export function decode(path, message) {
   return samples(path).map((bytes) => reader.readMessage(bytes));
 }
 
+const kServiceHeader = "uint64 client\nint64 seq\n";
+
 /** Both parts of a .srv file, each with the header that rmw_cyclonedds puts before it. */
 export function service(path) {
-  const header = "uint64 client\nint64 seq\n";
   const [request, response] = readFileSync(path, "utf8").split(/^---$/m);
-  return { request: header + request, response: header + response };
+  return { request: kServiceHeader + request, response: kServiceHeader + response };
+}
+
+/** Services of ROS's own, of which the library has the messages alone: request and response. */
+const services = {
+  "rcl_interfaces/GetParameters": ["string[] names", "rcl_interfaces/ParameterValue[] values"],
+  "rcl_interfaces/GetParameterTypes": ["string[] names", "uint8[] types"],
+  "rcl_interfaces/DescribeParameters": ["string[] names", "rcl_interfaces/ParameterDescriptor[] descriptors"],
+  "rcl_interfaces/ListParameters": ["string[] prefixes\nuint64 depth", "rcl_interfaces/ListParametersResult result"],
+  "rcl_interfaces/SetParameters": ["rcl_interfaces/Parameter[] parameters", "rcl_interfaces/SetParametersResult[] results"],
+  "rcl_interfaces/SetParametersAtomically": ["rcl_interfaces/Parameter[] parameters", "rcl_interfaces/SetParametersResult result"],
+  "lifecycle_msgs/GetState": ["uint8 structure_needs_at_least_one_member", "lifecycle_msgs/State current_state"],
+  "lifecycle_msgs/ChangeState": ["lifecycle_msgs/Transition transition", "bool success"],
+  "lifecycle_msgs/GetAvailableStates": [
+    "uint8 structure_needs_at_least_one_member", "lifecycle_msgs/State[] available_states",
+  ],
+  "lifecycle_msgs/GetAvailableTransitions": [
+    "uint8 structure_needs_at_least_one_member", "lifecycle_msgs/TransitionDescription[] available_transitions",
+  ],
+};
+
+/** Both parts of a service by its ROS name, each with that header. */
+export function serviceOf(name) {
+  const [request, response] = services[name].map((part) => kServiceHeader + part);
+  return { request, response };
 }

@@ -294,6 +294,38 @@ test('of several objects the one that is shown is chosen anew, and the other goe
   }
 });
 
+test('a setting that is entered holds from the next frame on, for all who look, and no other value is taken', async () => {
+  const valueIn = (view, name) => view.inputValue(`input[name="${name}"]`);
+  track = await startTrack([kDemo], { query: `?token=none` });
+  await open(track.address);
+  await untilTracking();
+  await page.click('#settings summary');
+  assert.equal(await valueIn(page, 'registration.iterations'), '8');
+  assert.equal(await page.locator('input[name="field.cell_size_m"]').count(), 0);
+  const other = await page.context().newPage();
+  await other.goto(track.address);
+  // A standard deviation that no pose has: the object is degraded from the next frame on.
+  await page.fill('input[name="monitor.degraded_std_m"]', '0');
+  await page.keyboard.press('Tab');
+  await until(() => document.getElementById('state').dataset.state === 'degraded');
+  await other.waitForFunction(() => document.querySelector('input[name="monitor.degraded_std_m"]')?.value === '0');
+  // Out of its range it is not sent, and it may be corrected.
+  await page.fill('input[name="registration.iterations"]', '99');
+  await page.keyboard.press('Tab');
+  assert.equal(await page.locator('#settings input:invalid').count(), 1);
+  await page.fill('input[name="registration.iterations"]', '12');
+  await page.keyboard.press('Tab');
+  await other.waitForFunction(() => document.querySelector('input[name="registration.iterations"]').value === '12');
+  // Each by itself may have its value, together they may not: who asked sees what holds.
+  await page.fill('input[name="segmenter.min_range_m"]', '50');
+  await page.keyboard.press('Tab');
+  await until(() => document.querySelector('input[name="segmenter.min_range_m"]').value === '0.1');
+  await page.locator('#settings').scrollIntoViewIfNeeded();
+  await page.screenshot({ path: join(pictures, 'settings.png') });
+  assert.equal(await valueOf('Restarts'), '0');
+  assert.deepEqual(complaints, []);
+});
+
 test('a lost link is said, and comes back by itself after the program was started anew', async () => {
   track = await startTrack([kDemo], { more: kKnown });
   await open(`${track.url}?token=${kToken}`);

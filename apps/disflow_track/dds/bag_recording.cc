@@ -183,4 +183,8 @@ hal::Fault BagRecording::Finish() { return state_->writer.Close(); }
 
 int BagRecording::frame_count() const noexcept { return state_->frames; }
 
+std::int64_t BagRecording::size_bytes() const noexcept {
+  return static_cast<std::int64_t>(state_->writer.size_bytes());
+}
+
 }  // namespace disflow::apps

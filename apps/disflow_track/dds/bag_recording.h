@@ -34,6 +34,7 @@ class BagRecording {
   /// Writes the index. No more can be added then.
   [[nodiscard]] hal::Fault Finish();
   [[nodiscard]] int frame_count() const noexcept;
+  [[nodiscard]] std::int64_t size_bytes() const noexcept;
 
  private:
   struct State;

@@ -23,4 +23,6 @@ hal::Fault BagRecording::Finish() { return {}; }
 
 int BagRecording::frame_count() const noexcept { return 0; }
 
+std::int64_t BagRecording::size_bytes() const noexcept { return 0; }
+
 }  // namespace disflow::apps

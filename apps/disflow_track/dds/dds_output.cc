@@ -8,7 +8,9 @@
 #include <thread>
 
 #include "dds/dds_inputs.h"
+#include "dds/dds_lifecycle.h"
 #include "dds/dds_object.h"
+#include "dds/dds_parameters.h"
 #include "disflow/posix/monotonic_clock.h"
 #include "input/ros_node_options.h"
 #include "program/exit_status.h"
@@ -36,6 +38,8 @@ class DdsPublisher {
       objects_.emplace_back(address, image, objects_.empty(), *channel, signal_, clock_, *node_,
                             transforms_, counters_);
     }
+    if (address.may_set) parameters_.emplace(address.name, channels, *node_);
+    if (address.may_pause) lifecycle_.emplace(address.name, channels, *node_);
     inputs_.emplace(address, *node_, inputs.pose_mailbox(), inputs.mask_mailbox());
     RequireLink(node_->Announce());
     thread_ = std::thread([this] { Serve(); });
@@ -90,6 +94,8 @@ class DdsPublisher {
       (void)signal_.WaitFor(kPatience_ns);
       inputs_->Turn(clock_);
       for (DdsObject& object : objects_) object.Turn(steady_.NowNs());
+      if (parameters_) parameters_->Turn();
+      if (lifecycle_) lifecycle_->Turn();
     }
     for (DdsObject& object : objects_) object.Finish(steady_.NowNs());
     node_->WaitForAcknowledgments(kFarewell_ns);
@@ -103,6 +109,9 @@ class DdsPublisher {
   DdsObject::TransformPublisher transforms_;
   DdsCounters counters_;
   std::deque<DdsObject> objects_;
+  // Not there unless the address allows it.
+  std::optional<DdsParameters> parameters_;
+  std::optional<DdsLifecycle> lifecycle_;
   std::optional<DdsInputs> inputs_;
   std::atomic<bool> stop_ = false;
   std::thread thread_;

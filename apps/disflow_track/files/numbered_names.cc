@@ -5,11 +5,14 @@
 #include <charconv>
 #include <cstdint>
 #include <filesystem>
+#include <iterator>
+#include <set>
 #include <string>
 #include <string_view>
 #include <system_error>
 #include <vector>
 
+#include "disflow/host/sequence_writer.h"
 #include "program/exit_status.h"
 
 namespace disflow::apps {
@@ -62,20 +65,44 @@ std::int64_t NumberIn(std::string_view file, const NumberedName& name) {
   return !goes_on && file.starts_with(name.after) ? number : 0;
 }
 
-std::int64_t HighestNumber(const NumberedName& name) {
+/// Calls visit(path, number) for all that has such a name.
+template <class Visitor>
+void VisitNumbered(const NumberedName& name, Visitor&& visit) {
   const fs::path folder = name.folder.empty() ? fs::path(".") : name.folder;
-  std::int64_t highest = 0;
   std::error_code error;
   fs::directory_iterator entry(folder, error);
   // One that is not there will be made, or opening the file says that it is not.
-  if (error == std::errc::no_such_file_or_directory) return 0;
+  if (error == std::errc::no_such_file_or_directory) return;
   for (; !error && entry != fs::directory_iterator(); entry.increment(error))
-    highest = std::max(highest, NumberIn(entry->path().filename().string(), name));
+    visit(entry->path(), NumberIn(entry->path().filename().string(), name));
   if (error) {
     throw Failure(kOutputFailed, folder.string() + ": cannot be read: " + error.message() +
                                      "; the numbers that are taken are looked up there");
   }
+}
+
+std::string Padded(std::int64_t number) {
+  const std::string digits = std::to_string(number);
+  return std::string(kDigits - std::min(kDigits, digits.size()), '0') + digits;
+}
+
+std::int64_t HighestNumber(const NumberedName& name) {
+  std::int64_t highest = 0;
+  VisitNumbered(name, [&highest](const fs::path&, std::int64_t number) {
+    highest = std::max(highest, number);
+  });
   return highest;
+}
+
+void RemoveOutput(const fs::path& path) {
+  std::error_code error;
+  if (fs::is_directory(fs::symlink_status(path, error))) {
+    Require(host::RemoveSequence(path));
+    if (!fs::is_empty(path, error) && !error) return;
+  }
+  (void)fs::remove(path, error);
+  if (error)
+    throw Failure(kOutputFailed, path.string() + ": cannot be removed: " + error.message());
 }
 
 /// Those that hold the place of a number.
@@ -90,11 +117,6 @@ std::vector<std::string*> NumberedOutputs(Options& options) {
   return names;
 }
 
-std::string Padded(std::int64_t number) {
-  const std::string digits = std::to_string(number);
-  return std::string(kDigits - std::min(kDigits, digits.size()), '0') + digits;
-}
-
 }  // namespace
 
 Options NumberOutputs(Options options) {
@@ -107,6 +129,31 @@ Options NumberOutputs(Options options) {
     *name = parts.folder / (parts.before + Padded(highest + 1) + parts.after);
   }
   return options;
+}
+
+void RemoveOldOutputs(const Options& options, int keep) {
+  std::vector<std::string> names{options.record};
+  for (const ObjectOptions& object : options.objects) names.push_back(object.files.csv);
+  std::erase_if(names,
+                [](const std::string& name) { return name.find(kRunNumber) == std::string::npos; });
+  std::set<std::int64_t> numbers;
+  for (const std::string& name : names) {
+    VisitNumbered(TakeApart(name), [&numbers](const fs::path&, std::int64_t number) {
+      if (number > 0) numbers.insert(number);
+    });
+  }
+  if (numbers.size() <= static_cast<std::size_t>(keep)) return;
+  const std::int64_t oldest_kept = *std::next(numbers.rbegin(), keep - 1);
+  for (const std::string& name : names) {
+    const NumberedName parts = TakeApart(name);
+    std::vector<fs::path> old;
+    VisitNumbered(parts, [&](const fs::path& path, std::int64_t number) {
+      if (number > 0 && number < oldest_kept &&
+          path.filename() == parts.before + Padded(number) + parts.after)
+        old.push_back(path);
+    });
+    for (const fs::path& path : old) RemoveOutput(path);
+  }
 }
 
 }  // namespace disflow::apps

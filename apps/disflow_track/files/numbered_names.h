@@ -5,8 +5,6 @@
 
 namespace disflow::apps {
 
-/// What stands for the number of the run in the last part of an output's name.
-inline constexpr const char* kRunNumber = "{n}";
 /// What to do about a folder that has something in it.
 inline constexpr const char* kOtherFolder =
     "give another folder, clear this one, or put {n} into its name for a new one at each start";
@@ -16,5 +14,12 @@ inline constexpr const char* kOtherFolder =
 /// boards do not know the time when they start.
 /// @throws Failure kWrongUsage, kOutputFailed if a folder cannot be read.
 [[nodiscard]] Options NumberOutputs(Options options);
+
+/// Removes trajectories and recordings whose names fit and whose numbers are not among the highest.
+/// Of a recording's folder what belongs to the recording, and the folder if nothing else is in it.
+/// @param options Before NumberOutputs().
+/// @param keep How many numbers are left, at least 1.
+/// @throws Failure kOutputFailed naming what cannot be removed.
+void RemoveOldOutputs(const Options& options, int keep);
 
 }  // namespace disflow::apps

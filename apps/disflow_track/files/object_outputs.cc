@@ -1,18 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "files/object_outputs.h"
 
-#include <cstring>
-
 #include "program/exit_status.h"
 
 namespace disflow::apps {
-
-void ObjectOutputs::WriteRow(const FrameResult& result) {
-  if (!csv_ || csv_->file().error() != 0 || csv_->Write(result)) return;
-  throw Failure(kOutputFailed, csv_->file().path() +
-                                   ": cannot be written: " + std::strerror(csv_->file().error()) +
-                                   "; it ends before frame " + std::to_string(result.frame));
-}
 
 void ObjectOutputs::WriteFlow(const TrackedObject& object, const FrameResult& result) {
   if (!flow_) return;
@@ -36,7 +27,6 @@ void ObjectOutputs::WriteMesh(TrackedObject& object, double resolution_m,
 }
 
 void ObjectOutputs::Finish(std::vector<std::string>& written) {
-  if (csv_) written.push_back(csv_->file().path() + ": trajectory");
   if (!flow_) return;
   written.push_back(flow_->folder() + ": flow of " + std::to_string(flow_->files()) + " frames");
 }

@@ -21,6 +21,8 @@ class RecordFile {
   [[nodiscard]] const std::string& path() const noexcept { return path_; }
   /// @return errno of the first failure, 0 if there was none.
   [[nodiscard]] int error() const noexcept { return error_; }
+  /// Of whole records.
+  [[nodiscard]] std::int64_t size_bytes() const noexcept { return complete_bytes_; }
 
  private:
   std::string path_;

@@ -75,7 +75,7 @@ void FrameSource::Pace(StampNs stamp_ns) noexcept {
 void FrameSource::SayUnreadable(const hal::Fault& fault) noexcept {
   fault_status_ = fault.status;
   ++unreadable_;
-  if (unreadable_ <= kSaidUnreadable) console_.Say(fault.message);
+  if (unreadable_ <= kSaidUnreadable) console_.Say(fault.message, Severity::kWarning);
   if (unreadable_ == kSaidUnreadable) console_.Say("further unreadable frames are only counted");
 }
 
@@ -83,20 +83,21 @@ void FrameSource::SayRestart(const hal::Fault& fault) noexcept {
   const std::uint32_t restarts = sensor_.counters().restarts;
   if (restarts == restarts_) return;
   restarts_ = restarts;
-  if (restarts_ <= kSaidRestarts) console_.Say(fault.message);
+  if (restarts_ <= kSaidRestarts) console_.Say(fault.message, Severity::kWarning);
   if (restarts_ == kSaidRestarts) console_.Say("further starts of the stream are only counted");
 }
 
 void FrameSource::TryReopen(const hal::Fault& fault) noexcept {
   if (!lost_) {
-    console_.Say(std::string(fault.message) + "; waiting for it to come back");
+    console_.Say(std::string(fault.message) + "; waiting for it to come back", Severity::kWarning);
     open_status_ = Status::kNotFound;
   }
   lost_ = true;
   clock_.SleepUntilNs(clock_.NowNs() + kTimeout_ns);
   const hal::Fault opened = sensor_.Open();
   // Not there yet is known; what else is wrong is said once.
-  if (!opened.ok() && opened.status != open_status_) console_.Say(opened.message);
+  if (!opened.ok() && opened.status != open_status_)
+    console_.Say(opened.message, Severity::kWarning);
   open_status_ = opened.status;
 }
 

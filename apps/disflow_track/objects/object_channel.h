@@ -14,6 +14,7 @@
 
 #include "objects/model_snapshot.h"
 #include "objects/object_choice.h"
+#include "objects/running_settings.h"
 
 /// @file
 /// What a tracked object shows to other threads, and what they ask of it. The tracking thread never
@@ -87,9 +88,14 @@ class ObjectChannel {
  public:
   /// @param index As in the MAVLink component id: 0 for the first object.
   /// @param new_snapshot Makes the snapshots of this object's kind of tracker.
+  /// @param config The tracker's settings at the start.
   ObjectChannel(std::string name, int index,
-                std::function<std::unique_ptr<ModelSnapshot>()> new_snapshot)
-      : name_(std::move(name)), index_(index), new_snapshot_(std::move(new_snapshot)) {}
+                std::function<std::unique_ptr<ModelSnapshot>()> new_snapshot,
+                const Config& config = {})
+      : name_(std::move(name)),
+        index_(index),
+        new_snapshot_(std::move(new_snapshot)),
+        settings_(config) {}
 
   template <class Limits>
   [[nodiscard]] static std::unique_ptr<ModelSnapshot> NewSnapshot() {
@@ -113,6 +119,7 @@ class ObjectChannel {
   /// While paused no frames are taken.
   void SetPaused(bool paused) noexcept { paused_ = paused; }
   [[nodiscard]] bool paused() const noexcept { return paused_; }
+  [[nodiscard]] RunningSettings& settings() noexcept { return settings_; }
 
   // By the tracking thread.
   [[nodiscard]] bool TakeReset() noexcept { return reset_.exchange(false); }
@@ -132,6 +139,7 @@ class ObjectChannel {
   int index_;
   std::function<std::unique_ptr<ModelSnapshot>()> new_snapshot_;
   std::deque<ChannelReader> readers_;
+  RunningSettings settings_;
   std::atomic<bool> reset_ = false;
   std::atomic<bool> paused_ = false;
   std::atomic<bool> chosen_ = false;

@@ -16,6 +16,8 @@ class TrackedObjectOf final : public TrackedObject {
 
  private:
   void DoReset() noexcept override { tracker_.Reset(); }
+  // The channel has refused what the tracker would.
+  void DoAdjust(const Config& config) noexcept override { (void)tracker_.Adjust(config); }
   Status DoChoose(const ObjectStart& start) noexcept override { return tracker_.Choose(start); }
 
   void DoTrack(const DepthFrame& frame, StageClock clock, FrameResult& result) noexcept override {
@@ -47,6 +49,7 @@ class TrackedObjectOf final : public TrackedObject {
 }  // namespace
 
 void TrackedObject::Track(const DepthFrame& frame, StageClock clock, FrameResult& result) noexcept {
+  if (Config config; channel_.settings().Take(config)) DoAdjust(config);
   if (channel_.TakeReset()) DoReset();
   if (channel_.TakeChoice(offered_)) Begin(frame);
   DepthFrame own = frame;

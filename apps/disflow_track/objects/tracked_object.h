@@ -22,13 +22,14 @@ class TrackedObject {
                 std::function<std::unique_ptr<ModelSnapshot>()> new_snapshot)
       : options_(options),
         masks_{options.uses_mask, options.label},
-        channel_(options.name, options.index, std::move(new_snapshot)) {}
+        channel_(options.name, options.index, std::move(new_snapshot), options.config) {}
   TrackedObject(const TrackedObject&) = delete;
   TrackedObject& operator=(const TrackedObject&) = delete;
   virtual ~TrackedObject() = default;
 
-  /// Fills estimate and totals of the result. Forgets the object first if the channel was asked to,
-  /// or for the one that was chosen. A choice that lies in no image is left aside.
+  /// Fills estimate and totals of the result. Takes settings that were changed first. Forgets the
+  /// object first if the channel was asked to, or for the one that was chosen. A choice that lies
+  /// in no image is left aside.
   void Track(const DepthFrame& frame, StageClock clock, FrameResult& result) noexcept;
   /// Shows the frame tracked last to the channel's listeners.
   /// @param frame Null if it could not be read.
@@ -56,6 +57,7 @@ class TrackedObject {
   [[nodiscard]] MaskView MaskIn(const DepthFrame& frame) const noexcept;
 
   virtual void DoReset() noexcept = 0;
+  virtual void DoAdjust(const Config& config) noexcept = 0;
   [[nodiscard]] virtual Status DoChoose(const ObjectStart& start) noexcept = 0;
   virtual void DoTrack(const DepthFrame& frame, StageClock clock, FrameResult& result) noexcept = 0;
   virtual void DoShow(const FrameResult& result, const DepthFrame* frame) = 0;

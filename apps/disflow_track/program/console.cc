@@ -34,13 +34,21 @@ const char* Colour(TrackingState state) noexcept {
 
 }  // namespace
 
-Console::Console(bool live_line) noexcept : live_line_(live_line && ::isatty(STDERR_FILENO) != 0) {}
+Console::Console(bool live_line, const std::string& log)
+    : target_(log),
+      live_line_(live_line && !target_.is_journal() && ::isatty(STDERR_FILENO) != 0) {}
 
-void Console::Say(const std::string& message) noexcept {
+void Console::Say(std::string_view message, Severity severity,
+                  std::span<const LogField> fields) noexcept {
   const std::lock_guard lock(mutex_);
+  if (target_.is_journal()) {
+    Write(MakeJournalEntry(message, severity, fields).bytes());
+    return;
+  }
   std::array<char, 1024> text;
-  const int length = std::snprintf(text.data(), text.size(), "%sdisflow_track: %s\n",
-                                   line_shown_ ? kClearLine : "", message.c_str());
+  const int length = std::snprintf(text.data(), text.size(), "%sdisflow_track: %.*s\n",
+                                   line_shown_ ? kClearLine : "", static_cast<int>(message.size()),
+                                   message.data());
   line_shown_ = false;
   if (length < 0) return;
   // The reports at the end of a run may be longer; nothing waits for them.
@@ -80,8 +88,7 @@ void Console::Write(std::string_view text) noexcept {
     writer_->Push(text);
     return;
   }
-  (void)std::fwrite(text.data(), 1, text.size(), stderr);
-  (void)std::fflush(stderr);
+  target_.Write(text);
 }
 
 void Console::Paint(std::span<const FrameResult> results, double seconds) noexcept {

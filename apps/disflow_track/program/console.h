@@ -10,25 +10,31 @@
 #include <string_view>
 
 #include "program/frame_result.h"
+#include "program/log_target.h"
 #include "program/log_writer.h"
 
 namespace disflow::apps {
 
-/// Messages, and on a terminal one line that always shows the latest state; both on stderr. Say()
-/// may be called by any thread.
+/// Messages, on stderr or in the journal, and on a terminal one line that always shows the latest
+/// state. Say() may be called by any thread.
 class Console {
  public:
   /// @param live_line Show the line if stderr is a terminal.
-  explicit Console(bool live_line) noexcept;
+  /// @param log Where messages go, see LogTarget. @throws Failure kWrongUsage.
+  explicit Console(bool live_line, const std::string& log = "text");
   Console(const Console&) = delete;
   Console& operator=(const Console&) = delete;
   ~Console() { ClearLine(); }
 
   /// From now on a thread of its own writes, and no caller waits for the terminal or the journal.
-  void WriteInBackground() { writer_ = std::make_unique<LogWriter>(); }
+  void WriteInBackground() { writer_ = std::make_unique<LogWriter>(target_); }
+  /// Whether messages have fields, for programs to read.
+  [[nodiscard]] bool is_structured() const noexcept { return target_.is_journal(); }
 
   /// One line with the program's name ahead.
-  void Say(const std::string& message) noexcept;
+  /// @param severity, fields For the journal.
+  void Say(std::string_view message, Severity severity = Severity::kInfo,
+           std::span<const LogField> fields = {}) noexcept;
   /// Shows the frame, if the last one was shown a while ago.
   /// @param results One per object.
   void Show(std::span<const FrameResult> results, std::int64_t now_ns) noexcept;
@@ -38,6 +44,7 @@ class Console {
   void Paint(std::span<const FrameResult> results, double seconds) noexcept;
   void Write(std::string_view text) noexcept;
 
+  LogTarget target_;
   bool live_line_;
   std::mutex mutex_;
   bool line_shown_ = false;

@@ -1,26 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "program/log_writer.h"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <cstdio>
 #include <cstring>
+#include <string>
 #include <utility>
 
 #include "disflow/saturating.h"
 
 namespace disflow::apps {
-namespace {
-
-void WriteOut(std::string_view text) noexcept {
-  (void)std::fwrite(text.data(), 1, text.size(), stderr);
-  (void)std::fflush(stderr);
-}
-
-}  // namespace
-
-LogWriter::LogWriter() : thread_([this] { WriteAll(); }) {}
+LogWriter::LogWriter(LogTarget& target) : target_(target), thread_([this] { WriteAll(); }) {}
 
 LogWriter::~LogWriter() {
   {
@@ -59,8 +48,8 @@ void LogWriter::WriteAll() {
     --count_;
     const std::uint32_t lost = count_ == 0 ? std::exchange(lost_, 0) : 0;
     lock.unlock();
-    WriteOut({entry.text.data(), entry.size});
-    if (lost > 0) (void)std::fprintf(stderr, "disflow_track: %u messages were lost here\n", lost);
+    target_.Write({entry.text.data(), entry.size});
+    if (lost > 0) target_.WriteLost(lost);
     lock.lock();
   }
 }

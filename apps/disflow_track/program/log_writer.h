@@ -9,24 +9,28 @@
 #include <string_view>
 #include <thread>
 
+#include "disflow/posix/journal.h"
+#include "program/log_target.h"
+
 namespace disflow::apps {
 
-/// Writes to standard error in a thread of its own, so that nobody waits for a terminal or for a
-/// journal that does not read. Texts that find no room are counted and the number is said.
+/// Writes messages in a thread of its own, so that nobody waits for a terminal or for a journal
+/// that does not read. Records that find no room are counted and the number is said.
 class LogWriter {
  public:
-  LogWriter();
+  /// @param target Outlives the writer.
+  explicit LogWriter(LogTarget& target);
   LogWriter(const LogWriter&) = delete;
   LogWriter& operator=(const LogWriter&) = delete;
   /// Writes what is waiting.
   ~LogWriter();
 
-  /// Takes the text as it is; cut at kLongest. Never waits for the output.
+  /// Takes a record as LogTarget::Write() does; cut at kLongest. Never waits for the output.
   void Push(std::string_view text) noexcept;
 
  private:
   static constexpr std::size_t kEntries = 64;
-  static constexpr std::size_t kLongest = 1024;
+  static constexpr std::size_t kLongest = posix::JournalEntry::kCapacity;
 
   struct Entry {
     std::array<char, kLongest> text{};
@@ -35,6 +39,7 @@ class LogWriter {
 
   void WriteAll();
 
+  LogTarget& target_;
   std::mutex mutex_;
   std::condition_variable changed_;
   // Under the mutex.

@@ -11,7 +11,9 @@ namespace {
 constexpr int kHighestPriority = 99;
 
 void Judge(const char* who, const hal::Fault& fault, Console& console) {
-  if (!fault.ok()) console.Say(std::string(who) + fault.message + "; the run goes on without it");
+  if (!fault.ok())
+    console.Say(std::string(who) + fault.message + "; the run goes on without it",
+                Severity::kWarning);
 }
 
 void Apply(const char* who, int priority, const int* cpu, Console& console) {

@@ -1,63 +1,49 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "run/outputs.h"
 
-#include "files/numbered_names.h"
+#include <utility>
+
 #include "program/exit_status.h"
 
 namespace disflow::apps {
 
-Outputs::Outputs(const Options& options, const hal::SensorInfo& sensor, Console& console,
-                 hal::CameraPoseHistory* camera_poses)
+Outputs::Outputs(const Options& options, const Options& named, const hal::SensorInfo& sensor,
+                 Console& console, hal::CameraPoseHistory* camera_poses)
     : console_(console),
       telemetry_(options, sensor, camera_poses, console),
-      record_path_(options.record) {
+      rotation_(options.rotation),
+      waits_for_files_(!sensor.live && options.rate != Rate::kLive) {
   for (const ObjectOptions& object : options.objects) objects_.emplace_back(object.files);
-  if (!options.record.empty()) StartRecording(options, sensor);
   // Last, since it empties files that may exist.
-  for (ObjectOutputs& object : objects_) object.OpenTrajectory(options.timing);
-}
-
-void Outputs::StartRecording(const Options& options, const hal::SensorInfo& sensor) {
-  constexpr const char* kObject = "object";
-  if (BagRecording::IsMeant(options.record)) {
-    bag_.emplace(options, sensor);
-    return;
-  }
-  recording_.emplace();
-  const hal::Fault fault = recording_->Open(options.record, kObject, /*overwrite=*/false);
-  if (fault.status == Status::kBusy) {
-    throw Failure(
-        kOutputFailed,
-        options.record + ": is not empty, and a recording is never overwritten; " + kOtherFolder);
-  }
-  Require(fault);
+  part_ = std::make_unique<RunPart>(options, sensor);
+  if (rotation_.wanted()) maker_ = std::make_unique<PartMaker>(named, sensor, console);
 }
 
 void Outputs::Deliver(std::span<const FrameResult> results, const DepthFrame* frame,
                       std::int64_t age_ns, std::int64_t now_ns) {
   telemetry_.Send(results, age_ns, now_ns);
+  if (maker_) RotateIfFull(results.front().estimate.stamp_ns);
   for (std::size_t i = 0; i < objects_.size(); ++i)
-    Attempt([&] { objects_[i].WriteRow(results[i]); });
-  if (!is_recording()) return;
-  const hal::Fault fault = Record(frame, results);
-  if (fault.ok()) return;
-  Fail(std::string(fault.message) + "; nothing more is recorded after " +
-       std::to_string(recorded_frames()) + " frames");
-  recording_.reset();
-  bag_.reset();
+    Attempt([&] { part_->WriteRow(i, results[i]); });
+  Attempt([&] { part_->Record(frame, results); });
 }
 
-hal::Fault Outputs::Record(const DepthFrame* frame, std::span<const FrameResult> results) {
-  if (bag_) return bag_->Add(frame, results);
-  if (frame == nullptr) return {};
-  hal::Fault fault = recording_->AddFrame(*frame);
-  if (fault.ok() && frame->mask.given()) fault = recording_->AddMask("gt", frame->mask);
-  // At once: the next frame may never come.
-  return fault.ok() ? recording_->CompleteFrame() : fault;
+void Outputs::RotateIfFull(StampNs stamp_ns) {
+  if (!IsFull(stamp_ns)) return;
+  // Until they are there, the full ones take what comes.
+  std::unique_ptr<RunPart> next = maker_->Take(waits_for_files_);
+  if (!next) return;
+  std::swap(part_, next);
+  (void)part_->AgeAt_s(stamp_ns);  // counts from here
+  maker_->Retire(std::move(next));
 }
 
-int Outputs::recorded_frames() const noexcept {
-  return bag_ ? bag_->frame_count() : recording_->frame_count();
+bool Outputs::IsFull(StampNs stamp_ns) noexcept {
+  constexpr double kMegabyte = 1e6;
+  const double size_mb = static_cast<double>(part_->size_bytes()) / kMegabyte;
+  const double age_s = part_->AgeAt_s(stamp_ns);
+  return part_->has_failed() || (rotation_.size_mb > 0.0 && size_mb >= rotation_.size_mb) ||
+         (rotation_.age_s > 0.0 && age_s >= rotation_.age_s);
 }
 
 void Outputs::WriteFlow(const TrackedObjects& objects, std::span<const FrameResult> results) {
@@ -72,10 +58,14 @@ void Outputs::WriteMeshes(const TrackedObjects& objects, double resolution_m) {
 
 bool Outputs::Finish() {
   for (ObjectOutputs& object : objects_) object.Finish(written_);
-  if (is_recording()) {
-    const hal::Fault fault = bag_ ? bag_->Finish() : recording_->Finish();
-    if (!fault.ok()) Fail(fault.message);
-    written_.push_back(record_path_ + ": " + std::to_string(recorded_frames()) + " frames");
+  const hal::Fault fault = part_->Finish(written_);
+  if (!fault.ok()) Fail(fault.message);
+  if (maker_) {
+    complete_ = maker_->Finish() && complete_;
+    if (maker_->retired() > 0) {
+      written_.push_back("and " + std::to_string(maker_->retired()) +
+                         " times before, under lower numbers");
+    }
   }
   for (std::string& line : telemetry_.Summary()) written_.push_back(std::move(line));
   return complete_ && !telemetry_.AnyLost();
@@ -92,7 +82,7 @@ void Outputs::Attempt(Write&& write) {
 
 void Outputs::Fail(const std::string& message) {
   complete_ = false;
-  console_.Say(message);
+  console_.Say(message, Severity::kError);
 }
 
 }  // namespace disflow::apps

@@ -2,18 +2,17 @@
 #pragma once
 
 #include <deque>
-#include <optional>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "dds/bag_recording.h"
-#include "disflow/host/sequence_writer.h"
 #include "files/object_outputs.h"
 #include "links/telemetry_output.h"
 #include "objects/tracked_object.h"
 #include "program/console.h"
 #include "program/frame_result.h"
+#include "run/part_maker.h"
 #include "settings/options.h"
 
 namespace disflow::apps {
@@ -24,10 +23,11 @@ class Outputs {
  public:
   /// Opens all that was asked for, so that a run never ends with nowhere to put its result.
   /// @throws Failure kWrongUsage, kOutputFailed; files that existed are then unchanged.
-  /// @param sensor Where the frames come from.
+  /// @param named The options before NumberOutputs(); for rotated files, outlive this object.
+  /// @param sensor Where the frames come from; outlives this object.
   /// @param camera_poses Where the links put the camera's poses; null if the camera stands.
-  Outputs(const Options& options, const hal::SensorInfo& sensor, Console& console,
-          hal::CameraPoseHistory* camera_poses);
+  Outputs(const Options& options, const Options& named, const hal::SensorInfo& sensor,
+          Console& console, hal::CameraPoseHistory* camera_poses);
 
   /// @param frame The input frame; null if it could not be read.
   void Deliver(std::span<const FrameResult> results, const DepthFrame* frame, std::int64_t age_ns,
@@ -53,10 +53,8 @@ class Outputs {
   [[nodiscard]] const std::vector<std::string>& written() const noexcept { return written_; }
 
  private:
-  void StartRecording(const Options& options, const hal::SensorInfo& sensor);
-  [[nodiscard]] hal::Fault Record(const DepthFrame* frame, std::span<const FrameResult> results);
-  [[nodiscard]] bool is_recording() const noexcept { return recording_ || bag_; }
-  [[nodiscard]] int recorded_frames() const noexcept;
+  void RotateIfFull(StampNs stamp_ns);
+  [[nodiscard]] bool IsFull(StampNs stamp_ns) noexcept;
   template <class Write>
   void Attempt(Write&& write);
   void Fail(const std::string& message);
@@ -64,10 +62,10 @@ class Outputs {
   Console& console_;
   TelemetryOutput telemetry_;
   std::deque<ObjectOutputs> objects_;
-  // At most one of them; empty again after a failure.
-  std::optional<host::SequenceWriter> recording_;
-  std::optional<BagRecording> bag_;
-  std::string record_path_;
+  RotationOptions rotation_;
+  bool waits_for_files_;  ///< Nothing is lost meanwhile.
+  std::unique_ptr<RunPart> part_;
+  std::unique_ptr<PartMaker> maker_;  ///< Null: nothing is rotated.
   std::vector<std::string> written_;
   bool complete_ = true;
 };

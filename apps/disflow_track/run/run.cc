@@ -18,6 +18,8 @@
 #include "run/outputs.h"
 #include "run/run_report.h"
 #include "run/service_status.h"
+#include "run/settings_watch.h"
+#include "run/state_log.h"
 #include "view/view_output.h"
 
 namespace disflow::apps {
@@ -49,6 +51,12 @@ std::vector<ObjectChannel*> ChannelsOf(const TrackedObjects& objects) {
   return channels;
 }
 
+std::vector<std::string> NamesOf(const Options& options) {
+  std::vector<std::string> names;
+  for (const ObjectOptions& object : options.objects) names.push_back(object.name);
+  return names;
+}
+
 /// What is known when a frame could not be read: where the tracker stands, and nothing of the
 /// frame, its capture time included.
 Estimate OfUnreadableFrame(const Estimate& last, Status fault) {
@@ -63,18 +71,21 @@ Estimate OfUnreadableFrame(const Estimate& last, Status fault) {
 /// A run from its first frame to its last, with all that it reads and writes.
 class TrackingRun {
  public:
+  /// @param named The options before their outputs got numbers.
   /// @throws Failure for what keeps the run from starting.
-  explicit TrackingRun(const Options& options)
+  TrackingRun(const Options& options, const Options& named, const CommandLine& command)
       : options_(options),
-        console_(!options.headless),
+        console_(!options.headless, options.log),
         ros_(OpenSensor(options, sensor_, console_)),
         info_(sensor_.get()->info()),
         inputs_(options, info_),
-        outputs_(options, info_, console_, inputs_.camera_poses()),
+        outputs_(options, named, info_, console_, inputs_.camera_poses()),
         source_(*sensor_.get(), clock_, options.rate, options.frames, console_),
         objects_(MakeObjects(options)),
         dds_(options.dds_link, ChannelsOf(objects_), info_, inputs_, ros_),
         view_(options.view, ChannelsOf(objects_), console_),
+        settings_watch_(command, options, ChannelsOf(objects_), console_),
+        state_log_(NamesOf(options)),
         results_(options.objects.size()),
         reports_(options.objects.size()) {}
 
@@ -86,7 +97,7 @@ class TrackingRun {
       Track();
     } catch (const Failure& failure) {
       // What was tracked so far is kept and written.
-      console_.Say(failure.what());
+      console_.Say(failure.what(), Severity::kError);
       status = failure.status();
     }
     const double seconds = static_cast<double>(clock_.NowNs() - begin_ns) * 1e-9;
@@ -179,6 +190,7 @@ class TrackingRun {
       reports_[i].Add(results_[i]);
     }
     console_.Show(results_, now_ns);
+    state_log_.Turn(results_, now_ns, console_);
     for (FrameResult& result : results_) ++result.frame;
   }
 
@@ -212,7 +224,7 @@ class TrackingRun {
   [[nodiscard]] ExitStatus JudgeInput() {
     if (reports_.front().frames() == 0) {
       if (StopRequested()) return kDone;
-      console_.Say("the sensor delivered no frame");
+      console_.Say("the sensor delivered no frame", Severity::kError);
       return kInputFailed;
     }
     bool any_tracked = false;
@@ -220,11 +232,13 @@ class TrackingRun {
       any_tracked = any_tracked || reports_[i].registered() > 0;
       if (reports_[i].registered() > 0) continue;
       console_.Say(Prefix(i) + "no frame could be tracked: " +
-                   std::string(Describe(reports_[i].most_frequent_fault())));
+                       std::string(Describe(reports_[i].most_frequent_fault())),
+                   Severity::kError);
     }
     if (!any_tracked) return kInputFailed;
     if (source_.unreadable() > 0 && !info_.live) {
-      console_.Say(std::to_string(source_.unreadable()) + " frames could not be read");
+      console_.Say(std::to_string(source_.unreadable()) + " frames could not be read",
+                   Severity::kError);
       return kInputFailed;
     }
     return kDone;
@@ -262,6 +276,8 @@ class TrackingRun {
   TrackedObjects objects_;
   DdsOutput dds_;
   ViewOutput view_;
+  SettingsWatch settings_watch_;
+  StateLog state_log_;
   std::vector<FrameResult> results_;
   std::vector<RunReport> reports_;
   DurationHistogram all_objects_;
@@ -269,10 +285,10 @@ class TrackingRun {
 
 }  // namespace
 
-ExitStatus Run(const Options& options) {
+ExitStatus Run(const Options& options, const CommandLine& command) {
   const Options numbered = NumberOutputs(options);
   RefuseSharedOutputs(numbered);
-  return TrackingRun(numbered).Run();
+  return TrackingRun(numbered, options, command).Run();
 }
 
 }  // namespace disflow::apps

@@ -136,6 +136,8 @@ class Reader {
   }
   void ReadRectified(std::string_view value) { sensor_.rectified = IsYes("rectified", value); }
   void ReadChoose(std::string_view value) { link_.may_choose = IsYes("choose", value); }
+  void ReadParameters(std::string_view value) { link_.may_set = IsYes("parameters", value); }
+  void ReadLifecycle(std::string_view value) { link_.may_pause = IsYes("lifecycle", value); }
   void ReadReset(std::string_view value) { link_.may_reset = IsYes("reset", value); }
   [[nodiscard]] bool IsYes(const char* key, std::string_view value) const {
     if (value != "yes" && value != "no") {
@@ -169,7 +171,7 @@ class Reader {
     Side side;
     void (Reader::*read)(std::string_view value);
   };
-  static constexpr std::array<Option, 14> kOptions = {{
+  static constexpr std::array<Option, 16> kOptions = {{
       {"domain", Side::kBoth, &Reader::ReadDomain},
       {"name", Side::kBoth, &Reader::ReadName},
       {"interface", Side::kBoth, &Reader::ReadInterface},
@@ -180,6 +182,8 @@ class Reader {
       {"mask", Side::kLink, &Reader::ReadMask},
       {"choose", Side::kLink, &Reader::ReadChoose},
       {"reset", Side::kLink, &Reader::ReadReset},
+      {"parameters", Side::kLink, &Reader::ReadParameters},
+      {"lifecycle", Side::kLink, &Reader::ReadLifecycle},
       {"depth", Side::kSensor, &Reader::ReadDepth},
       {"info", Side::kSensor, &Reader::ReadInfo},
       {"rectified", Side::kSensor, &Reader::ReadRectified},

@@ -24,7 +24,9 @@ struct DdsAddress : DdsNodeAddress {
   std::string mask_topic;   ///< Empty: no masks.
   std::string world_frame;  ///< Empty: nobody moves the camera.
   bool may_reset = false;   ///< Whoever is on the network may start the objects anew,
-  bool may_choose = false;  ///< and say what they are.
+  bool may_choose = false;  ///< say what they are,
+  bool may_set = false;     ///< change their settings as the node's parameters,
+  bool may_pause = false;   ///< and pause them as the node's life cycle.
 };
 
 /// What `--sensor dds:KEY=VALUE&…` says; docs/ros2.md.

@@ -12,6 +12,9 @@ namespace disflow::apps {
 /// How many objects one run may track; each costs a tracker's memory.
 inline constexpr std::size_t kMaxObjects = 4;
 
+/// What stands for the number of the run in the last part of an output's name.
+inline constexpr const char* kRunNumber = "{n}";
+
 /// Files that a run may write for an object; empty = not wanted.
 struct ObjectFiles {
   std::string csv;

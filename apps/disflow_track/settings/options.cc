@@ -13,9 +13,11 @@
 #include "disflow/posix/mask_source.h"
 #include "disflow/surface_extractor.h"
 #include "program/exit_status.h"
+#include "program/log_target.h"
 #include "settings/choice.h"
 #include "settings/dds_address.h"
 #include "settings/rosbag_help.h"
+#include "settings/rotation_options.h"
 #include "settings/setting_sources.h"
 
 namespace disflow::apps {
@@ -38,14 +40,16 @@ constexpr const char* kLinksAndStatus =
     "    for autopilots\n"
     "or ROS 2 (docs/ros2.md):\n"
     "  dds:domain=N[&name=NODE][&interface=NAME][&peer=HOST,…][&camera=FRAME][&world=FRAME]\n"
-    "      [&mask=TOPIC][&reset=yes][&choose=yes][&ros=humble|iron]\n"
+    "      [&mask=TOPIC][&reset=yes][&choose=yes][&parameters=yes][&lifecycle=yes]\n"
+    "      [&ros=humble|iron]\n"
     "\n"
     "Every input frame gives one row of the CSV; its column status is 'ok' or says why the pose "
     "is\n"
     "only a prediction. CSV and mesh share one object frame. {n} in the names of --csv, --mesh,\n"
     "--mesh-picture, --flow and --record stands for a number, one more than the highest that is\n"
     "there: run-{n}.csv. SIGINT and SIGTERM end the run as if the input had ended, a second one\n"
-    "ends the program at once.\n"
+    "ends the program at once. SIGHUP reads --config again (docs/deploy.md); without one it ends\n"
+    "the run.\n"
     "\n"
     "Exit status: 0 done, 2 wrong usage or settings, 3 the sensor failed, a file of the sequence\n"
     "could not be read, no frame could be tracked or memory ran out, 4 an output or link failed.";
@@ -195,6 +199,12 @@ void AddOutput(CLI::App& app, Options& options, CommonObjectOptions& objects) {
                  "Write the frames as a sequence for replay:DIR; or, with their results, as "
                  "messages of ROS 2, if the name ends in .mcap (docs/ros2.md)")
       ->type_name("DIR|FILE.mcap");
+  AddRotationOptions(app, options.rotation);
+  app.add_option("--log", options.log,
+                 "Where messages go: text, lines on standard error; journald, entries with fields "
+                 "in the system's journal, or in that of another socket [auto: the journal if "
+                 "standard error leads there]")
+      ->type_name("auto|text|journald[:SOCKET]");
   app.add_flag("--headless", options.headless, "No live status line");
   app.add_flag_callback(
       "--no-timing", [&options] { options.timing = false; },
@@ -274,8 +284,9 @@ void CheckResolution(const Options& options) {
 
 }  // namespace
 
-Options ParseCommandLine(int argc, char** argv, bool& exit_now) {
+Options ParseCommandLine(int argc, char** argv, bool& exit_now, const Config& defaults) {
   Options options;
+  options.config = defaults;
   SettingSources settings;
   CLI::App app(kDescription, "disflow_track");
   app.footer(std::string("Sensors:\n") + posix::kCameraAddressHelp + kDdsSensorHelp + kRosbagHelp +
@@ -305,6 +316,8 @@ Options ParseCommandLine(int argc, char** argv, bool& exit_now) {
   CheckCameraPose(options);
   CheckCameraInBody(options.camera_pose);
   CheckMaskStream(options);
+  CheckRotation(options);
+  (void)LogTarget(options.log);  // refuses words that there are not
   if (options.sensor.empty() && !options.list_sensors && !options.print_config &&
       !options.print_settings_table) {
     throw Failure(kWrongUsage, "--sensor is required; see disflow_track --help");

@@ -9,6 +9,7 @@
 #include "disflow/hal/mavlink/messages.h"
 #include "program/realtime_options.h"
 #include "settings/object_options.h"
+#include "settings/settings_file.h"
 #include "settings/view_options.h"
 
 namespace disflow::apps {
@@ -27,6 +28,15 @@ struct CameraPoseOptions {
       camera_in_body;  ///< x y z qw qx qy qz; empty: looks ahead from the body's origin.
 };
 
+/// When trajectories and recording go on in new files.
+struct RotationOptions {
+  double size_mb = 0.0;  ///< When they are larger together; 0: never.
+  double age_s = 0.0;    ///< When they hold more time; 0: never.
+  int keep = 0;          ///< Numbers that are kept, the newest included; 0: all.
+
+  [[nodiscard]] bool wanted() const noexcept { return size_mb > 0.0 || age_s > 0.0; }
+};
+
 /// The command line, checked.
 struct Options {
   std::string sensor;
@@ -34,6 +44,9 @@ struct Options {
   std::string dds_link;            ///< Empty: none.
   double mesh_resolution_m = 0.0;  ///< 0: by the model's own detail.
   std::string record;
+  RotationOptions rotation;
+  std::string settings_file;           ///< Empty: none.
+  SettingsFile file;                   ///< What it says.
   Config config;                       ///< Defaults, then the file, then --set.
   std::vector<ObjectOptions> objects;  ///< At least one.
   int threads = 0;  ///< Among which the objects are shared out; 0 = by objects and processors.
@@ -46,7 +59,8 @@ struct Options {
   RealtimeOptions realtime;
   ViewOptions view;
   bool headless = false;
-  bool timing = true;  ///< false: time columns are written as 0.
+  std::string log = "auto";  ///< See LogTarget.
+  bool timing = true;        ///< false: time columns are written as 0.
 
   bool list_sensors = false;
   bool print_config = false;
@@ -56,7 +70,9 @@ struct Options {
 
 /// Reads the command line; answers --help itself.
 /// @param exit_now Set if the program has nothing left to do but to end with status 0.
+/// @param defaults What holds where neither the command line nor the file says otherwise.
 /// @throws Failure kWrongUsage.
-[[nodiscard]] Options ParseCommandLine(int argc, char** argv, bool& exit_now);
+[[nodiscard]] Options ParseCommandLine(int argc, char** argv, bool& exit_now,
+                                       const Config& defaults = {});
 
 }  // namespace disflow::apps

@@ -70,6 +70,8 @@ void ReadSettings(CLI::App& app, SettingSources& settings, Options& options) {
   if (!settings.file.empty()) {
     file = LoadSettings(settings.file, options.config);
     for (const RunSetting& setting : file.run) ApplyRunSetting(app, setting);
+    options.settings_file = settings.file;
+    options.file = file;
   }
   ApplyTyped(settings, options.config);
   CheckSettings(options.config);

@@ -3,34 +3,15 @@
 
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "disflow/config.h"
+#include "settings/settings_file.h"
 
 /// @file
 /// The tracker's settings as people write and read them. Names, units, ranges and meanings come
 /// from VisitFields().
 
 namespace disflow::apps {
-
-/// One line of a settings file: an option of the command line or of an object.
-struct RunSetting {
-  std::string where;   ///< For messages: file and line.
-  std::string option;  ///< "--rate".
-  std::vector<std::string> values;
-};
-
-/// One [[object]] of a settings file.
-struct ObjectTable {
-  std::string where;
-  std::vector<RunSetting> keys;  ///< What is no section; the option is the key itself.
-  Config config;                 ///< The file's, then the sections of this object.
-};
-
-struct SettingsFile {
-  std::vector<RunSetting> run;
-  std::vector<ObjectTable> objects;
-};
 
 /// Overwrites the settings that a TOML file mentions.
 /// @return What else it says.

@@ -57,6 +57,10 @@ std::string FormatSettingsPage() {
       "\n"
       "What may change between runs. `disflow_track --print-config > run.toml` writes a file with\n"
       "all of them, `--config run.toml` reads it, `--set registration.iterations=10` changes one.\n"
+      "What is marked with \u2713 may also change while the program runs: by SIGHUP, which reads "
+      "the\n"
+      "file again ([deploy](deploy.md#settings-while-it-runs)), on the page of the\n"
+      "[live view](view.md) and as [parameters of ROS 2](ros2.md#parameters-and-life-cycle).\n"
       "Capacities are fixed at compile time, see [memory](memory.md).\n"
       "This page is written by `disflow_track --print-settings-table`.\n";
   const Config defaults;
@@ -66,11 +70,13 @@ std::string FormatSettingsPage() {
     if (name.section != section) {
       section = name.section;
       text.append("\n## ").append(section).append("\n\n");
-      text.append("| setting | default | range | unit | meaning |\n|---|---|---|---|---|\n");
+      text.append("| setting | default | range | unit | at run time | meaning |\n");
+      text.append("|---|---|---|---|---|---|\n");
     }
     text.append("| `").append(field.name).append("` | ").append(Literal(field.value));
     text.append(" | ").append(NumberText(field.min)).append(" to ").append(NumberText(field.max));
-    text.append(" | ").append(field.unit).append(" | ").append(field.meaning).append(" |\n");
+    text.append(" | ").append(field.unit).append(field.at_run_time ? " | \u2713" : " | ");
+    text.append(" | ").append(field.meaning).append(" |\n");
   });
   return text;
 }

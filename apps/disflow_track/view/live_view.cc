@@ -73,7 +73,7 @@ void LiveView::Work() {
 }
 
 void LiveView::Obey(std::span<const std::uint8_t> command) {
-  static_assert(kViewChoiceBytes == posix::WebServer::kLongCommandBytes);
+  static_assert(kViewLongCommandBytes == posix::WebServer::kLongCommandBytes);
   if (command[1] >= objects_.size()) return;
   const auto wanted = static_cast<ViewCommand>(command[0]);
   switch (wanted) {
@@ -90,6 +90,12 @@ void LiveView::Obey(std::span<const std::uint8_t> command) {
     case ViewCommand::kChoose:
       if (const std::optional<ObjectChoice> choice = DecodeChoice(command))
         objects_[command[1]]->channel().Choose(*choice);
+      return;
+    case ViewCommand::kSet:
+      if (const std::optional<ViewSetting> setting = DecodeSetting(command))
+        (void)objects_[command[1]]->channel().settings().Set(setting->number, setting->value);
+      // Whether or not it was: who asked sees what holds.
+      objects_[command[1]]->ShowSettingsAgain();
       return;
   }
 }

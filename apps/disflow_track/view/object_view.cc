@@ -24,6 +24,7 @@ constexpr std::size_t kMostVertices = 20'000;
 void ObjectView::Update(bool watched, bool ended, std::int64_t now_ns) {
   TakeResults();
   UpdateStatus(ended, now_ns);
+  UpdateSettings();
   if (ModelSnapshot* const snapshot = requested_ ? reader_.snapshot() : nullptr) {
     Draw(*snapshot, now_ns);
     requested_ = false;
@@ -61,6 +62,15 @@ void ObjectView::UpdateStatus(bool ended, std::int64_t now_ns) {
   status_.not_shown = reader_.lost();
   status_ns_ = now_ns;
   Put(kStatus, EncodeText(ViewMessage::kStatus, object_, DescribeStatus(status_, newest_)));
+}
+
+void ObjectView::UpdateSettings() {
+  const std::uint32_t version = channel_.settings().version();
+  const bool wanted = settings_wanted_.exchange(false);
+  if (!wanted && version == settings_version_) return;
+  settings_version_ = version;
+  Put(kSettings, EncodeText(ViewMessage::kSettings, object_,
+                            DescribeRunningSettings(channel_.settings().Now())));
 }
 
 void ObjectView::Draw(ModelSnapshot& snapshot, std::int64_t now_ns) {

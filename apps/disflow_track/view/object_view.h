@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <vector>
 
@@ -14,7 +15,7 @@ namespace disflow::apps {
 /// Puts on the board what browsers see of one object. All but the constructor by the view's thread.
 class ObjectView {
  public:
-  static constexpr std::size_t kTopics = 4;  ///< Status, surface, flow, depth.
+  static constexpr std::size_t kTopics = 5;  ///< Status, surface, flow, depth, settings.
 
   /// @param first_topic Of kTopics that are this object's.
   /// @param metrics Gets every result.
@@ -31,12 +32,15 @@ class ObjectView {
   void Update(bool watched, bool ended, std::int64_t now_ns);
 
   [[nodiscard]] ObjectChannel& channel() noexcept { return channel_; }
+  /// By any thread: browsers show the settings as they are, whatever they believed.
+  void ShowSettingsAgain() noexcept { settings_wanted_ = true; }
 
  private:
-  enum Topic : std::size_t { kStatus, kSurface, kFlow, kDepth };
+  enum Topic : std::size_t { kStatus, kSurface, kFlow, kDepth, kSettings };
 
   void TakeResults();
   void UpdateStatus(bool ended, std::int64_t now_ns);
+  void UpdateSettings();
   void Draw(ModelSnapshot& snapshot, std::int64_t now_ns);
   void DrawSurface(ModelSnapshot& snapshot, std::int64_t now_ns);
   void Put(Topic topic, posix::MessageBoard::Bytes bytes) {
@@ -56,6 +60,9 @@ class ObjectView {
   std::int64_t status_ns_ = 0;   ///< When it was sent.
   std::int64_t counted_ns_ = 0;  ///< Since when frames are counted.
   int counted_ = 0;
+
+  std::atomic<bool> settings_wanted_ = true;
+  std::uint32_t settings_version_ = 0;
 
   bool requested_ = false;
   std::int64_t surface_due_ns_ = 0;

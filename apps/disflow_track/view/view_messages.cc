@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "ply_bytes.h"
@@ -218,7 +219,7 @@ ViewBytes EncodeDepth(int object, const DepthPicture& picture) {
 }
 
 std::optional<ObjectChoice> DecodeChoice(std::span<const std::uint8_t> command) noexcept {
-  if (command.size() < kViewChoiceBytes) return std::nullopt;
+  if (command.size() < kViewLongCommandBytes) return std::nullopt;
   const auto share = [command](std::size_t at) {
     return static_cast<float>(command[at] | command[at + 1] << 8) /
            static_cast<float>(std::numeric_limits<std::uint16_t>::max());
@@ -232,6 +233,14 @@ std::optional<ObjectChoice> DecodeChoice(std::span<const std::uint8_t> command) 
   const bool is_box = choice.width > 0.0F && choice.height > 0.0F;
   choice.kind = is_box ? ObjectChoice::Kind::kBox : ObjectChoice::Kind::kPixel;
   return choice;
+}
+
+std::optional<ViewSetting> DecodeSetting(std::span<const std::uint8_t> command) noexcept {
+  if (command.size() < kViewLongCommandBytes) return std::nullopt;
+  ViewSetting setting;
+  std::memcpy(&setting.number, command.data() + 2, sizeof(setting.number));
+  std::memcpy(&setting.value, command.data() + 4, sizeof(setting.value));
+  return setting;
 }
 
 }  // namespace disflow::apps

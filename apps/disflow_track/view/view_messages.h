@@ -29,13 +29,20 @@ enum class ViewMessage : std::uint8_t {
   kSurface = 4,
   kFlow = 5,
   kDepth = 6,
+  kSettings = 7,
 };
 
 /// What a browser asks for; the first byte of its message, the second is the object.
-enum class ViewCommand : std::uint8_t { kReset = 1, kPause = 2, kResume = 3, kChoose = 4 };
+enum class ViewCommand : std::uint8_t {
+  kReset = 1,
+  kPause = 2,
+  kResume = 3,
+  kChoose = 4,
+  kSet = 5
+};
 
-/// Of ViewCommand::kChoose.
-inline constexpr std::size_t kViewChoiceBytes = 14;
+/// Of ViewCommand::kChoose and kSet.
+inline constexpr std::size_t kViewLongCommandBytes = 14;
 
 inline constexpr int kViewFormat = 1;
 /// Of a frame's record.
@@ -53,6 +60,17 @@ inline constexpr std::size_t kShownFlowSamples = 300;
 /// What ViewCommand::kChoose points at: a place or a box in the image.
 /// @return Nothing if the message is too short.
 [[nodiscard]] std::optional<ObjectChoice> DecodeChoice(
+    std::span<const std::uint8_t> command) noexcept;
+
+/// A setting and the value that somebody wants it to have.
+struct ViewSetting {
+  std::uint16_t number = 0;  ///< Its place in VisitFields().
+  double value = 0.0;
+};
+
+/// What ViewCommand::kSet sets.
+/// @return Nothing if the message is too short.
+[[nodiscard]] std::optional<ViewSetting> DecodeSetting(
     std::span<const std::uint8_t> command) noexcept;
 
 }  // namespace disflow::apps

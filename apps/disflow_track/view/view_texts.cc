@@ -2,7 +2,9 @@
 #include "view/view_texts.h"
 
 #include <nlohmann/json.hpp>
+#include <type_traits>
 
+#include "disflow/config_fields.h"
 #include "view/counter_names.h"
 #include "view/view_messages.h"
 
@@ -47,6 +49,25 @@ std::string DescribeStatus(const ViewStatus& status, const FrameResult& result) 
                 {"not_shown", status.not_shown},
                 {"tracker", ToJson(kTrackerCounters, result.totals)},
                 {"sensor", ToJson(kSensorCounters, result.sensor)}});
+}
+
+std::string DescribeRunningSettings(const Config& config) {
+  Json settings = Json::array();
+  std::size_t number = 0;
+  VisitFields(config, [&](const auto& field) {
+    const std::size_t own = number++;
+    if (!field.at_run_time) return;
+    using Value = std::remove_cvref_t<decltype(field.value)>;
+    settings.push_back({{"number", own},
+                        {"name", field.name},
+                        {"value", field.value},
+                        {"min", field.min},
+                        {"max", field.max},
+                        {"whole", std::is_integral_v<Value>},
+                        {"unit", field.unit},
+                        {"meaning", field.meaning}});
+  });
+  return Print({{"settings", std::move(settings)}});
 }
 
 }  // namespace disflow::apps

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 
+#include "disflow/config.h"
 #include "program/frame_result.h"
 
 /// @file
@@ -23,5 +24,8 @@ struct ViewStatus {
   std::uint32_t not_shown = 0;  ///< Frames that the view was too slow for.
 };
 [[nodiscard]] std::string DescribeStatus(const ViewStatus& status, const FrameResult& result);
+
+/// Those of an object's settings that may change while it is tracked.
+[[nodiscard]] std::string DescribeRunningSettings(const Config& config);
 
 }  // namespace disflow::apps

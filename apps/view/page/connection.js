@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The link to the server: comes back by itself after it was lost.
-import { decode, encodeChoice, encodeCommand } from './messages.js';
+import { decode, encodeChoice, encodeCommand, encodeSetting } from './messages.js';
 
 const kSilence_ms = 3000; // The server says something twice a second.
 const kLongestWait_ms = 3000;
@@ -21,6 +21,10 @@ export class Connection {
 
   choose(object, place) {
     this.#send(encodeChoice(object, place));
+  }
+
+  set(object, number, value) {
+    this.#send(encodeSetting(object, number, value));
   }
 
   #send(bytes) {

@@ -6,6 +6,7 @@ import { showBanner, showCounters, showFrame, showRange } from './panel.js';
 import { download, plyOf } from './ply.js';
 import { Plots } from './plots.js';
 import { Scene } from './scene.js';
+import { showSettings } from './settings.js';
 import { mapColour } from './theme.js';
 
 const byId = (id) => document.getElementById(id);
@@ -80,6 +81,9 @@ function show(message) {
       drawDepth(byId('depth'), message);
       byId('depth-range').textContent = `${message.near.toFixed(2)} to ${message.far.toFixed(2)} m`;
       break;
+    case 'settings':
+      showSettings(byId('setting-values'), message.settings, (number, value) => connection.set(chosen, number, value));
+      break;
     case 'status':
       showCounters(message);
       showLink();
@@ -96,7 +100,7 @@ function choose(object) {
   for (const [i, button] of [...byId('objects').children].entries()) button.ariaPressed = String(i === chosen);
   const known = objects[chosen];
   if (known.frames.length > 0) show({ kind: 'frames', frames: known.frames });
-  for (const kind of ['surface', 'flow', 'depth', 'status']) if (known[kind]) show(known[kind]);
+  for (const kind of ['surface', 'flow', 'depth', 'settings', 'status']) if (known[kind]) show(known[kind]);
 }
 
 function showChooser() {

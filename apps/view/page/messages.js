@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The server's messages, byte by byte as docs/view.md says.
 
-const Kind = { hello: 1, status: 2, frames: 3, surface: 4, flow: 5, depth: 6 };
-const Command = { reset: 1, pause: 2, resume: 3, choose: 4 };
+const Kind = { hello: 1, status: 2, frames: 3, surface: 4, flow: 5, depth: 6, settings: 7 };
+const Command = { reset: 1, pause: 2, resume: 3, choose: 4, set: 5 };
 
 const kFlowUnit = 0.00025; // m and m/s
 const kWord = 65535;
@@ -25,6 +25,16 @@ export function encodeChoice(object, { u, v, reach = 0, width = 0, height = 0 })
   return new Uint8Array(view.buffer);
 }
 
+/** The bytes of "this setting shall have this value". */
+export function encodeSetting(object, number, value) {
+  const view = new DataView(new ArrayBuffer(14));
+  view.setUint8(0, Command.set);
+  view.setUint8(1, object);
+  view.setUint16(2, number, true);
+  view.setFloat64(4, value, true);
+  return new Uint8Array(view.buffer);
+}
+
 /** Gives {kind, object, ...} or null for a kind that this page does not know. */
 export function decode(buffer) {
   const view = new DataView(buffer);
@@ -36,6 +46,7 @@ export function decode(buffer) {
     case Kind.surface: return { kind: 'surface', object: head.object, ...decodeSurface(buffer, view, head) };
     case Kind.flow: return { kind: 'flow', object: head.object, ...decodeFlow(view, head) };
     case Kind.depth: return { kind: 'depth', object: head.object, ...decodeDepth(buffer, view, head) };
+    case Kind.settings: return { kind: 'settings', object: head.object, ...decodeText(buffer) };
     default: return null;
   }
 }

@@ -4,9 +4,9 @@
 #include "disflow/status.h"
 
 /// @file
-/// Settings that may change between runs. Capacities are in limits.h. The one list of names, units,
-/// ranges and meanings is VisitFields() in config_fields.h; Validate(), the TOML reader and
-/// docs/settings.md are made from it.
+/// Settings; Tracker::Adjust() changes some while it tracks. Capacities are in limits.h. The one
+/// list of names, units, ranges and meanings is VisitFields() in config_fields.h; Validate(), the
+/// TOML reader and docs/settings.md are made from it.
 
 namespace disflow {
 

@@ -16,17 +16,21 @@ struct ConfigField {
   double max;
   const char* unit;
   const char* meaning;
+  bool at_run_time;  ///< Tracker::Adjust() may change it.
 };
 
 /// Calls visitor(ConfigField<float or int>) for every setting, in a fixed order.
 /// @param config Config or const Config.
 template <class ConfigType, class Visitor>
 constexpr void VisitFields(ConfigType& config, Visitor&& visitor) {
-  const auto field = [&visitor](const char* name, auto& value, double min, double max,
-                                const char* unit, const char* meaning) {
+  const auto visit = [&visitor](bool at_run_time, const char* name, auto& value, double min,
+                                double max, const char* unit, const char* meaning) {
     visitor(ConfigField<std::remove_reference_t<decltype(value)>>{name, value, min, max, unit,
-                                                                  meaning});
+                                                                  meaning, at_run_time});
   };
+  const auto field = [&visit](auto&&... what) { visit(true, what...); };
+  // What the model is made with, or where the object is looked for first.
+  const auto fixed = [&visit](auto&&... what) { visit(false, what...); };
   auto& seg = config.segmenter;
   field("segmenter.min_range_m", seg.min_range_m, 0.0, 100.0, "m", "nearest depth that is used");
   field("segmenter.max_range_m", seg.max_range_m, 0.01, 100.0, "m", "farthest depth that is used");
@@ -47,17 +51,17 @@ constexpr void VisitFields(ConfigType& config, Visitor&& visitor) {
         "moves in the image meanwhile");
   field("segmenter.lost_margin_m", seg.lost_margin_m, 0.0, 1.0, "m",
         "added to model_margin_m while the object is lost");
-  field("segmenter.roi_x_px", seg.roi_x_px, 0, 8192, "px", "region of interest, left edge");
-  field("segmenter.roi_y_px", seg.roi_y_px, 0, 8192, "px", "region of interest, top edge");
-  field("segmenter.roi_width_px", seg.roi_width_px, 0, 8192, "px",
+  fixed("segmenter.roi_x_px", seg.roi_x_px, 0, 8192, "px", "region of interest, left edge");
+  fixed("segmenter.roi_y_px", seg.roi_y_px, 0, 8192, "px", "region of interest, top edge");
+  fixed("segmenter.roi_width_px", seg.roi_width_px, 0, 8192, "px",
         "region of interest; 0 = whole image");
-  field("segmenter.roi_height_px", seg.roi_height_px, 0, 8192, "px",
+  fixed("segmenter.roi_height_px", seg.roi_height_px, 0, 8192, "px",
         "region of interest; 0 = whole image");
-  field("segmenter.seed_u_px", seg.seed_u_px, -1, 8191, "px",
+  fixed("segmenter.seed_u_px", seg.seed_u_px, -1, 8191, "px",
         "a pixel on the object in the first frame; -1 = nearest");
-  field("segmenter.seed_v_px", seg.seed_v_px, -1, 8191, "px",
+  fixed("segmenter.seed_v_px", seg.seed_v_px, -1, 8191, "px",
         "a pixel on the object in the first frame; -1 = nearest");
-  field("segmenter.seed_reach_px", seg.seed_reach_px, 0, 8192, "px",
+  fixed("segmenter.seed_reach_px", seg.seed_reach_px, 0, 8192, "px",
         "surface this near to the seed in the image counts as lying there");
   field("segmenter.grow_region", seg.grow_region, 0, 1, "0/1",
         "without a mask: 1 = one connected surface is the object, 0 = all within range and region "
@@ -88,27 +92,27 @@ constexpr void VisitFields(ConfigType& config, Visitor&& visitor) {
   field("sampler.edge_background_gap_m", sam.edge_background_gap_m, 0.001, 10.0, "m",
         "background behind an occluding edge is at least this much farther away");
   auto& fld = config.field;
-  field("field.cell_size_m", fld.cell_size_m, 0.001, 2.0, "m", "edge of an octree leaf");
-  field("field.length_scale_m", fld.length_scale_m, 0.002, 10.0, "m",
+  fixed("field.cell_size_m", fld.cell_size_m, 0.001, 2.0, "m", "edge of an octree leaf");
+  fixed("field.length_scale_m", fld.length_scale_m, 0.002, 10.0, "m",
         "length scale of the Matern 3/2 kernel");
-  field("field.prior_gradient_std", fld.prior_gradient_std, 0.01, 2.0, "1",
+  fixed("field.prior_gradient_std", fld.prior_gradient_std, 0.01, 2.0, "1",
         "prior standard deviation of the gradient about the local plane");
-  field("field.value_noise_m", fld.value_noise_m, 1e-6, 0.1, "m",
+  fixed("field.value_noise_m", fld.value_noise_m, 1e-6, 0.1, "m",
         "noise of a surface constraint, added to the sample's own");
-  field("field.normal_noise", fld.normal_noise, 1e-3, 1.0, "1", "noise of a normal constraint");
-  field("field.merge_radius_m", fld.merge_radius_m, 1e-4, 0.5, "m",
+  fixed("field.normal_noise", fld.normal_noise, 1e-3, 1.0, "1", "noise of a normal constraint");
+  fixed("field.merge_radius_m", fld.merge_radius_m, 1e-4, 0.5, "m",
         "observations this close to a sample are averaged into it");
-  field("field.overlap_m", fld.overlap_m, 0.0, 0.5, "m",
+  fixed("field.overlap_m", fld.overlap_m, 0.0, 0.5, "m",
         "neighbouring cells' samples this close to the border are trained on too");
-  field("field.crease_cos", fld.crease_cos, 0.0, 0.99, "1",
+  fixed("field.crease_cos", fld.crease_cos, 0.0, 0.99, "1",
         "normals whose cosine is smaller belong to different sides of a crease");
-  field("field.unknown_curvature_per_m", fld.unknown_curvature_per_m, 0.0, 1000.0, "1/m",
+  fixed("field.unknown_curvature_per_m", fld.unknown_curvature_per_m, 0.0, 1000.0, "1/m",
         "how much the surface may bend where the samples end");
-  field("field.reject_floor_m", fld.reject_floor_m, 0.0, 1.0, "m",
+  fixed("field.reject_floor_m", fld.reject_floor_m, 0.0, 1.0, "m",
         "observations farther than this plus 3 sigma from known surface are not fused");
-  field("field.freeze_after", fld.freeze_after, 1, 250, "1",
+  fixed("field.freeze_after", fld.freeze_after, 1, 250, "1",
         "a sample stops moving after this many observations");
-  field("field.mature_after", fld.mature_after, 1, 250, "1",
+  fixed("field.mature_after", fld.mature_after, 1, 250, "1",
         "a sample is trained on after this many observations");
   field("field.retrain_budget", fld.retrain_budget, 1, 10000, "1",
         "local GPs retrained per frame at most");
@@ -191,5 +195,8 @@ constexpr void VisitFields(ConfigType& config, Visitor&& visitor) {
   field("monitor.reinitialise_after_s", mon.reinitialise_after_s, 0.0, 3600.0, "s",
         "time after which a lost object is started anew");
 }
+
+/// @return The wanted settings, but those that may not change at run time as they are now.
+[[nodiscard]] Config AdjustedAtRunTime(const Config& now, const Config& wanted) noexcept;
 
 }  // namespace disflow

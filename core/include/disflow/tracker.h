@@ -62,6 +62,11 @@ class Tracker {
   /// @return kInvalidConfig, and nothing changes, if a value is out of its range, see Validate().
   [[nodiscard]] Status Choose(const ObjectStart& start) noexcept;
 
+  /// Takes new settings between two frames and keeps the object. Those that VisitFields() does not
+  /// mark as at_run_time stay as they are.
+  /// @return kInvalidConfig, and nothing changes, if what comes of it is invalid, see Validate().
+  [[nodiscard]] Status Adjust(const Config& config) noexcept;
+
   [[nodiscard]] const ConfigIssue& config_issue() const noexcept { return config_issue_; }
   /// The reconstructed surface; see also surface_extractor.h.
   [[nodiscard]] const Field& field() const noexcept { return field_; }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "disflow/config_fields.h"
 #include "disflow/depth/edge_sampler.h"
 #include "disflow/depth/seen_space_impl.h"
 #include "disflow/depth/segmenter_choice_impl.h"
@@ -110,6 +111,18 @@ Status Tracker<Limits>::Choose(const ObjectStart& start) noexcept {
   config_ = chosen;
   config_issue_ = issue;
   Reset();
+  return Status::kOk;
+}
+
+template <CapacityProfile Limits>
+Status Tracker<Limits>::Adjust(const Config& config) noexcept {
+  const Config adjusted = AdjustedAtRunTime(config_, config);
+  const ConfigIssue issue = Validate(adjusted);
+  if (issue.field != nullptr) return issue.status();
+  config_ = adjusted;
+  config_issue_ = issue;
+  twist_filter_.Adjust(config_.twist);
+  monitor_.Adjust(config_.monitor);
   return Status::kOk;
 }
 

@@ -8,11 +8,13 @@ import ctypes.util
 import errno
 import os
 import re
+import signal
 import socket
 import subprocess
 import sys
 import tempfile
 import threading
+import time
 import unittest
 import urllib.request
 
@@ -104,6 +106,23 @@ class Program(unittest.TestCase):
                                 "--link", f"udp://127.0.0.1:{port}?key={key}", "--link", "dds:domain=97")
             peer.settimeout(0)
             self.assertTrue(peer.recv(2048))
+
+    def test_settings_are_read_again_and_files_go_on_in_new_ones(self):
+        settings = os.path.join(self._folder, "track.toml")
+        rows = os.path.join(self._folder, "run-000001.csv")
+        with open(settings, "w", encoding="utf-8") as file:
+            file.write("[registration]\niterations = 8\n")
+        process = self.start("--sensor", "sim:box?frames=90", "--rate", "live", "--config", settings, "--csv", "run-{n}.csv",
+                             "--rotate-age", "1", "--rotate-keep", "2", "--log", "journald:/nonexistent")
+        while process.poll() is None and not (os.path.exists(rows) and os.path.getsize(rows) > 3000):
+            time.sleep(0.01)
+        with open(settings, "w", encoding="utf-8") as file:
+            file.write("[registration]\niterations = 9\n")
+        process.send_signal(signal.SIGHUP)
+        report = process.communicate(timeout=200)[1]
+        self.assertEqual(process.returncode, 0, report)
+        self.assertIn("registration.iterations = 9 (was 8)", report)
+        self.assertEqual(sum(name.startswith("run-") for name in os.listdir(self._folder)), 2)
 
     def test_list_of_sensors_and_missing_cameras_are_said(self):
         process = self.start("--list-sensors")

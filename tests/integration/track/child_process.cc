@@ -64,6 +64,8 @@ ChildProcess::~ChildProcess() {
 
 void ChildProcess::Signal(int signal_number) const { (void)::kill(pid_, signal_number); }
 
+std::string ChildProcess::said() const { return ReadText(err_); }
+
 Outcome ChildProcess::Wait() {
   int status = 0;
   while (::waitpid(pid_, &status, 0) < 0 && errno == EINTR) {

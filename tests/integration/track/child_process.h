@@ -29,6 +29,8 @@ class ChildProcess {
   ~ChildProcess();
 
   void Signal(int signal_number) const;
+  /// What it has said on standard error so far.
+  [[nodiscard]] std::string said() const;
   /// Waits for its end.
   [[nodiscard]] Outcome Wait();
 

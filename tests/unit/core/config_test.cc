@@ -9,32 +9,11 @@
 #include <string>
 #include <type_traits>
 
+#include "changed_config.h"
 #include "disflow/config_fields.h"
 
 namespace disflow {
 namespace {
-
-/// Gives setting number `index` a value made by `change(current value, min, max)`.
-/// @return The setting's name, empty beyond the last.
-template <class Change>
-std::string ChangeField(Config& config, int index, Change&& change) {
-  std::string name;
-  int i = 0;
-  VisitFields(config, [&](auto field) {
-    if (i++ != index) return;
-    name = field.name;
-    using Value = std::remove_reference_t<decltype(field.value)>;
-    field.value = change(Value{}, static_cast<Value>(field.min), static_cast<Value>(field.max));
-  });
-  return name;
-}
-
-int FieldCount() {
-  Config config;
-  int count = 0;
-  VisitFields(config, [&count](auto) { ++count; });
-  return count;
-}
 
 const auto kBelow = [](auto, auto min, auto) {
   if constexpr (std::is_same_v<decltype(min), float>) {
@@ -50,9 +29,6 @@ const auto kAbove = [](auto, auto, auto max) {
     return max + 1;
   }
 };
-const auto kMinimum = [](auto, auto min, auto) { return min; };
-const auto kMaximum = [](auto, auto, auto max) { return max; };
-
 TEST(Config, Defaults_AreValid) {
   const ConfigIssue issue = Validate(Config{});
   EXPECT_EQ(issue.field, nullptr) << issue.field;

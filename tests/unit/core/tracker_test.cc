@@ -11,8 +11,11 @@
 #include <map>
 #include <memory>
 #include <random>
+#include <string>
 #include <vector>
 
+#include "changed_config.h"
+#include "disflow/config_fields.h"
 #include "disflow/surface_extractor.h"
 #include "traced_scene.h"
 
@@ -362,6 +365,80 @@ TEST(TrackerChoose, PlaceOutOfRange_IsRefusedAndChangesNothing) {
   EXPECT_FALSE(tracker->field().empty());
   ASSERT_EQ(tracker->Process(TwoThings(Tracking::StampOf(1)), estimate), Status::kOk);
   EXPECT_EQ(estimate.reset_counter, 0);
+}
+
+/// The widest partners, so that any setting may be moved to an end of its range.
+Config WideConfig() {
+  Config config;
+  config.segmenter.min_range_m = 0.0F;
+  config.sampler.min_block_px = 1;
+  config.sampler.max_block_px = 64;
+  return config;
+}
+
+TEST(TrackerAdjust, SettingsThatAreMarked_AreThoseThatChange) {
+  const auto tracker = std::make_unique<MicroTracker>(WideConfig());
+  const auto is_same = [](const Config& a, const Config& b) {
+    return std::memcmp(&a, &b, sizeof(Config)) == 0;
+  };
+  for (int i = 0; i < FieldCount(); ++i) {
+    Config wanted = WideConfig();
+    const std::string name = ChangeField(wanted, i, kMaximum);
+    if (is_same(wanted, WideConfig())) ChangeField(wanted, i, kMinimum);
+    if (Validate(wanted).field != nullptr) continue;  // does not go with the others
+    ASSERT_EQ(tracker->Adjust(wanted), Status::kOk) << name;
+    VisitFields(tracker->config(), [&](const auto& field) {
+      if (name != field.name) return;
+      EXPECT_EQ(is_same(tracker->config(), wanted), field.at_run_time) << name;
+    });
+    ASSERT_EQ(tracker->Adjust(WideConfig()), Status::kOk);
+  }
+}
+
+TEST(TrackerAdjust, ObjectAndItsModel_AreKept) {
+  const auto tracker = std::make_unique<MicroTracker>();
+  Estimate estimate;
+  ASSERT_EQ(tracker->Process(TwoThings(Tracking::StampOf(0)), estimate), Status::kOk);
+  Config wanted = tracker->config();
+  // The farther thing, which the object that is tracked is not.
+  wanted.segmenter.seed_u_px = 110;
+  wanted.segmenter.seed_v_px = 60;
+  wanted.monitor.degraded_score = 1.0F;
+  wanted.field.cell_size_m = 0.05F;
+  ASSERT_EQ(tracker->Adjust(wanted), Status::kOk);
+  EXPECT_FALSE(tracker->field().empty());
+  for (int i = 1; i < 8; ++i)
+    ASSERT_EQ(tracker->Process(TwoThings(Tracking::StampOf(i)), estimate), Status::kOk);
+  EXPECT_NEAR(estimate.T_co.translation().z(), 0.5F, 0.01F);
+  EXPECT_EQ(estimate.reset_counter, 0);
+  EXPECT_EQ(tracker->config().monitor.degraded_score, 1.0F);
+}
+
+TEST(TrackerAdjust, MonitorAndTwistFilter_TakeTheirSettingsAtTheNextFrame) {
+  const auto tracker = std::make_unique<MicroTracker>();
+  Estimate estimate;
+  int frame = 0;
+  for (; frame < 10; ++frame)
+    ASSERT_EQ(tracker->Process(TwoThings(Tracking::StampOf(frame)), estimate), Status::kOk);
+  ASSERT_EQ(estimate.state, TrackingState::kTracking);
+  const float std_before = estimate.twist_covariance(0, 0);
+  Config wanted;
+  wanted.monitor.degraded_std_m = 0.0F;
+  wanted.twist.linear_jerk_psd = 1e6F;
+  ASSERT_EQ(tracker->Adjust(wanted), Status::kOk);
+  ASSERT_EQ(tracker->Process(TwoThings(Tracking::StampOf(frame)), estimate), Status::kOk);
+  EXPECT_EQ(estimate.state, TrackingState::kDegraded);
+  EXPECT_GT(estimate.twist_covariance(0, 0), 2.0F * std_before);
+}
+
+TEST(TrackerAdjust, SettingsThatDoNotGoTogether_AreRefusedAndChangeNothing) {
+  const auto tracker = std::make_unique<MicroTracker>();
+  Config wanted;
+  wanted.registration.iterations = 20;
+  wanted.segmenter.min_range_m = wanted.segmenter.max_range_m;
+  EXPECT_EQ(tracker->Adjust(wanted), Status::kInvalidConfig);
+  EXPECT_EQ(tracker->config().registration.iterations, Config{}.registration.iterations);
+  EXPECT_EQ(tracker->config_issue().field, nullptr);
 }
 
 TEST(TrackerChoose, NothingAtThePlace_StartsNothingUntilThereIs) {

@@ -65,5 +65,44 @@ build() { [[ " $* " = *" -DDISFLOW_BUILD_PEERS=ON "* ]] && exit 44; exit 43; }
 expect 44 run_bench peers
 expect 43 run_bench
 
+# --- watch_ninja, watch_apt: steps become progress, and what is no step is seen
+seen() { # seen WORDS COMMAND...: the command's output holds them
+  local words="$1" output
+  shift
+  output="$("$@" 2>&1)"
+  [[ "$output" == *"$words"* ]] || {
+    echo "$*: '$words' was expected in: $output"
+    failures=$((failures + 1))
+  }
+}
+a_build() {
+  printf '[%s of 4] Building\n' 1 2 3 4 | watch_ninja
+}
+a_failed_build() {
+  printf '%s\n' '[1 of 4] Building a.cc' 'FAILED: a.o' 'a.cc:1: error: no' 'ninja: build stopped: subcommand failed.' | watch_ninja
+}
+an_installation() {
+  printf '%s\n' 'dlstatus:1:50.0:Retrieving' 'Get:1 something' 'pmstatus:g++:10.0:Unpacking' 'pmstatus:g++:60.5:Unpacking' \
+    'pmerror:a:b:c' '' ':::' | watch_apt
+}
+seen 'build: 25 %, about 0 s left' a_build
+seen 'build: 75 %' a_build
+seen 'FAILED: a.o' a_failed_build
+seen 'a.cc:1: error: no' a_failed_build
+seen 'build stopped' a_failed_build
+seen 'packages: 25 %' an_installation
+seen 'packages: 80 %' an_installation
+expect 0 tell_left build 0 0 0
+expect 1 run_tests --fresh-air
+
+# --- need_later: in the background only where nobody has to be asked
+id() { echo 0; }
+need() { :; }
+later() { need_later gnuplot && [ -n "$later_pid" ] && wait "$later_pid"; }
+expect 0 later
+id() { echo 1000; }
+not_later() { need_later gnuplot && [ -z "$later_pid" ]; }
+expect 0 not_later
+
 [ "$failures" -eq 0 ] || exit 1
 echo "all as expected"

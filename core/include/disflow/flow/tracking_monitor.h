@@ -24,6 +24,8 @@ class TrackingMonitor {
   };
 
   void Start(const MonitorConfig& config, StampNs stamp_ns) noexcept;
+  /// From now on.
+  void Adjust(const MonitorConfig& config) noexcept { config_ = config; }
   /// Whether a registration result is good enough to be believed at all. After frames that were
   /// not, more is asked for: the pose was searched for instead of followed.
   [[nodiscard]] bool Accepts(const Evidence& evidence, StampNs stamp_ns) const noexcept;

@@ -20,6 +20,8 @@ class TwistFilter {
  public:
   void Start(const TwistFilterConfig& config, StampNs stamp_ns, const PoseCameraFromObject& T_co,
              const Mat6& pose_covariance) noexcept;
+  /// From now on.
+  void Adjust(const TwistFilterConfig& config) noexcept { config_ = config; }
 
   /// Moves the state to a later stamp.
   void Predict(StampNs stamp_ns) noexcept;

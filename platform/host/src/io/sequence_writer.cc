@@ -29,20 +29,6 @@ hal::Fault MakeFolder(const fs::path& folder) {
                         error.message().c_str());
 }
 
-/// Everything that a sequence consists of, and nothing else that may be in its folder.
-hal::Fault RemoveSequence(const fs::path& dir) {
-  for (const char* name : {kDepthFolder, kMaskFolder, kInfraredFolder, kTruthFolder, kCameraFile,
-                           kDataFile, kWorldPoseFile}) {
-    std::error_code error;
-    fs::remove_all(dir / name, error);
-    if (error) {
-      return hal::MakeFault(Status::kIoError, "%s: cannot be removed: %s", (dir / name).c_str(),
-                            error.message().c_str());
-    }
-  }
-  return {};
-}
-
 /// @param name Empty: of the only object.
 fs::path TruthFolder(std::string_view name) {
   return name.empty() ? fs::path(kTruthFolder) : fs::path(kTruthFolder) / name;
@@ -63,6 +49,19 @@ std::string FormatPose(const Transform<A, B, double>& pose) {
 
 }  // namespace
 
+hal::Fault RemoveSequence(const fs::path& dir) {
+  for (const char* name : {kDepthFolder, kMaskFolder, kInfraredFolder, kTruthFolder, kCameraFile,
+                           kDataFile, kWorldPoseFile}) {
+    std::error_code error;
+    fs::remove_all(dir / name, error);
+    if (error) {
+      return hal::MakeFault(Status::kIoError, "%s: cannot be removed: %s", (dir / name).c_str(),
+                            error.message().c_str());
+    }
+  }
+  return {};
+}
+
 hal::Fault SequenceWriter::Open(const fs::path& dir, std::string_view object, bool overwrite) {
   hal::Fault fault = MakeFolder(dir);
   if (!fault.ok()) return fault;
@@ -82,6 +81,7 @@ hal::Fault SequenceWriter::Open(const fs::path& dir, std::string_view object, bo
   dir_ = dir;
   object_ = object;
   frames_ = 0;
+  image_bytes_ = 0;
   pending_ = false;
   failure_ = {};
   truths_.clear();
@@ -170,6 +170,7 @@ hal::Fault SequenceWriter::WriteDepth(const DepthView& depth) {
   depth_bytes_.resize(sizeof(size) + static_cast<std::size_t>(height_px_) * row_bytes);
   std::memcpy(depth_bytes_.data(), size.data(), sizeof(size));
   CopyMetres(depth, depth_bytes_.data() + sizeof(size));
+  image_bytes_ += static_cast<std::int64_t>(depth_bytes_.size());
   return WriteWholeFile(dir_ / kDepthFolder / (std::to_string(frames_) + kDepthExtension),
                         {depth_bytes_.data(), depth_bytes_.size()});
 }
@@ -217,6 +218,9 @@ hal::Fault SequenceWriter::WriteImage(const fs::path& file, const MaskView& imag
   fault = MakeFolder(path.parent_path());
   if (fault.ok())
     fault = WriteGray8Png(path, image.data, width_px_, height_px_, image.stride_bytes);
+  std::error_code error;
+  const std::uintmax_t bytes = fs::file_size(path, error);
+  if (!error) image_bytes_ += static_cast<std::int64_t>(bytes);
   return fault.ok() ? fault : GiveUp(fault);
 }
 

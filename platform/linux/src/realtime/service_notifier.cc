@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <cstddef>
 #include <cstdlib>
 #include <cstring>
 
@@ -29,16 +28,8 @@ std::int64_t Number(std::string_view text) noexcept {
 
 }  // namespace
 
-ServiceNotifier::ServiceNotifier() noexcept {
-  const std::string_view path = Environment("NOTIFY_SOCKET");
-  // A path, or a name in the abstract space, which is written with an '@'.
-  if (path.size() < 2 || (path[0] != '/' && path[0] != '@')) return;
-  if (path.size() >= sizeof(peer_.sun_path)) return;
-  peer_.sun_family = AF_UNIX;
-  std::memcpy(peer_.sun_path, path.data(), path.size());
-  if (path[0] == '@') peer_.sun_path[0] = '\0';
-  peer_size_ = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + path.size());
-  socket_ = FileDescriptor(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+ServiceNotifier::ServiceNotifier() noexcept : manager_(Environment("NOTIFY_SOCKET")) {
+  if (!active()) return;
   const std::int64_t pid = Number(Environment("WATCHDOG_PID"));
   if (pid == 0 || pid == ::getpid()) {
     constexpr std::int64_t kLongest_us = 86'400'000'000;
@@ -64,10 +55,8 @@ void ServiceNotifier::Beat(std::int64_t now_ns) noexcept {
 }
 
 void ServiceNotifier::Send(std::string_view message) noexcept {
-  if (!active()) return;
   // If the manager does not read, the message is lost; the next one says the same again.
-  (void)::sendto(socket_.get(), message.data(), message.size(), MSG_NOSIGNAL,
-                 reinterpret_cast<const sockaddr*>(&peer_), peer_size_);
+  if (active()) (void)manager_.Send(message);
 }
 
 }  // namespace disflow::posix

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <set>
 #include <string>
 
 #include "refusal.h"
@@ -100,6 +101,43 @@ TEST_F(NumberedNamesTest, FolderThatCannotBeRead_IsNamed) {
   options_.record = Path("file/{n}");
   const std::string refusal = RefusalOf([&] { (void)NumberOutputs(options_); }, kOutputFailed);
   EXPECT_EQ(refusal.find(Path("file") + ": cannot be read"), 0U) << refusal;
+}
+
+TEST_F(NumberedNamesTest, OldOutputs_AreRemovedBeyondTheCountAndNothingElse) {
+  for (const char* name :
+       {"run-000001.csv", "run-000002.csv", "run-000003.csv", "run-000003.csv.bak",
+        "run-000001.csv.bak", "run-1.csv", "run-x.csv", "run-000001.ply"})
+    test::WriteFile(Path(name), "x");
+  for (const char* folder : {"rec-000001", "rec-000002", "rec-000004", "rec-000000"}) {
+    fs::create_directories(fs::path(Path(folder)) / "depth");
+    test::WriteFile(Path(std::string(folder) + "/data.txt"), "x");
+  }
+  test::WriteFile(Path("rec-000002/notes.txt"), "mine");
+  options_.objects[0].files.csv = Path("run-{n}.csv");
+  options_.objects[0].files.mesh = Path("run-{n}.ply");
+  options_.record = Path("rec-{n}");
+  RemoveOldOutputs(options_, 2);
+  std::set<std::string> left;
+  for (const auto& entry : fs::directory_iterator(scratch()))
+    left.insert(entry.path().filename().string());
+  EXPECT_EQ(left, (std::set<std::string>{
+                      "run-000003.csv", "run-000003.csv.bak", "run-000001.csv.bak", "run-1.csv",
+                      "run-x.csv", "run-000001.ply", "rec-000002", "rec-000004", "rec-000000"}));
+  // What somebody else has put there stays.
+  EXPECT_EQ(test::ReadFile(Path("rec-000002/notes.txt")), "mine");
+  EXPECT_FALSE(fs::exists(Path("rec-000002/depth")));
+  EXPECT_TRUE(fs::exists(Path("rec-000004/depth")));
+}
+
+TEST_F(NumberedNamesTest, LinkInPlaceOfARecording_IsRemovedAndNotFollowed) {
+  fs::create_directories(Path("elsewhere/depth"));
+  test::WriteFile(Path("elsewhere/data.txt"), "x");
+  fs::create_directory_symlink(Path("elsewhere"), Path("rec-000001"));
+  fs::create_directory(Path("rec-000002"));
+  options_.record = Path("rec-{n}");
+  RemoveOldOutputs(options_, 1);
+  EXPECT_FALSE(fs::exists(fs::symlink_status(Path("rec-000001"))));
+  EXPECT_TRUE(fs::exists(Path("elsewhere/data.txt")));
 }
 
 }  // namespace

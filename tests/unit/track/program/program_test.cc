@@ -73,7 +73,8 @@ TEST(LogWriter, EndOfTheProgram_LosesNothingThatWasTaken) {
   {
     StandardErrorPipe pipe;
     {
-      LogWriter writer;
+      LogTarget target("text");
+      LogWriter writer(target);
       for (int i = 0; i < 50; ++i) writer.Push("line " + std::to_string(i) + "\n");
     }
     pipe.Restore();
@@ -90,7 +91,8 @@ TEST(LogWriter, ReaderThatDoesNotRead_HoldsUpNobodyAndEveryLossIsCounted) {
   std::string text;
   std::thread reader;
   {
-    LogWriter writer;
+    LogTarget target("text");
+    LogWriter writer(target);
     for (int i = 0; i < kPushed; ++i) writer.Push(std::string(1000, 'x') + "\n");
     // Had Push() waited, this would not be reached.
     reader = std::thread([&] { text = pipe.ReadAll(); });
@@ -114,7 +116,8 @@ TEST(LogWriter, ReaderThatDoesNotRead_HoldsUpNobodyAndEveryLossIsCounted) {
 TEST(LogWriter, TextTooLong_IsCutAndStaysALine) {
   StandardErrorPipe pipe;
   {
-    LogWriter writer;
+    LogTarget target("text");
+    LogWriter writer(target);
     writer.Push(std::string(5000, 'x') + "\n");
     writer.Push("next\n");
   }

@@ -19,7 +19,8 @@ std::string Refusal(const std::string& uri) {
 TEST(DdsAddress, EveryOption_IsTaken) {
   const DdsAddress address = ParseDdsAddress(
       "dds:domain=232&name=left_arm&interface=eth0&peer=10.0.0.2,robot.local,[fe80::1]&"
-      "camera=cam/depth&world=map&mask=/seg/mask&reset=yes&choose=yes&ros=humble");
+      "camera=cam/depth&world=map&mask=/seg/mask&reset=yes&choose=yes&parameters=yes&"
+      "lifecycle=yes&ros=humble");
   EXPECT_EQ(address.domain, 232U);
   EXPECT_EQ(address.name, "left_arm");
   EXPECT_EQ(address.interface, "eth0");
@@ -29,6 +30,8 @@ TEST(DdsAddress, EveryOption_IsTaken) {
   EXPECT_EQ(address.mask_topic, "/seg/mask");
   EXPECT_TRUE(address.may_reset);
   EXPECT_TRUE(address.may_choose);
+  EXPECT_TRUE(address.may_set);
+  EXPECT_TRUE(address.may_pause);
   EXPECT_TRUE(address.before_iron);
 }
 
@@ -40,6 +43,8 @@ TEST(DdsAddress, WhatIsLeftOut_KeepsItsDefault) {
   EXPECT_TRUE(address.peers.empty());
   EXPECT_TRUE(address.mask_topic.empty());
   EXPECT_FALSE(address.may_choose);
+  EXPECT_FALSE(address.may_set);
+  EXPECT_FALSE(address.may_pause);
   EXPECT_FALSE(address.may_reset) << "who listens need not be who commands";
   EXPECT_FALSE(address.before_iron);
 }

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <nlohmann/json.hpp>
 
+#include "disflow/config_fields.h"
 #include "view/view_texts.h"
 
 namespace disflow::apps {
@@ -184,6 +186,34 @@ TEST(ViewMessages, Choice_IsAPlaceOrABoxInSharesOfThePicture) {
   EXPECT_NEAR(choice->height, 0.125F, 1e-5F);
   command.pop_back();
   EXPECT_FALSE(DecodeChoice(command).has_value());
+}
+
+TEST(ViewMessages, Setting_IsANumberAndAValue) {
+  std::vector<std::uint8_t> command = {5, 1, 0x2C, 0x01, 0, 0, 0, 0, 0, 0, 0xE0, 0x3F, 0, 0};
+  const auto setting = DecodeSetting(command);
+  ASSERT_TRUE(setting.has_value());
+  EXPECT_EQ(setting->number, 300);
+  EXPECT_EQ(setting->value, 0.5);
+  command.pop_back();
+  EXPECT_FALSE(DecodeSetting(command).has_value());
+}
+
+TEST(ViewTexts, SettingsThatMayChange_AreTheOnlyOnesAndHaveTheirNumbers) {
+  Config config;
+  config.registration.iterations = 11;
+  const auto json = nlohmann::json::parse(DescribeRunningSettings(config));
+  std::size_t number = 0;
+  std::size_t listed = 0;
+  VisitFields(config, [&](const auto& field) {
+    const std::size_t own = number++;
+    if (!field.at_run_time) return;
+    const auto& setting = json.at("settings").at(listed++);
+    EXPECT_EQ(setting.at("number"), own) << field.name;
+    EXPECT_EQ(setting.at("name"), field.name);
+    EXPECT_EQ(setting.at("value"), field.value);
+    EXPECT_EQ(setting.at("max"), field.max);
+  });
+  EXPECT_EQ(json.at("settings").size(), listed);
 }
 
 }  // namespace

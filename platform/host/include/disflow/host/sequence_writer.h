@@ -65,6 +65,8 @@ class SequenceWriter {
 
   /// Frames added, without one that could not be written whole.
   [[nodiscard]] int frame_count() const { return frames_; }
+  /// What the images take on the disk; the few lines of text beside them are not counted.
+  [[nodiscard]] std::int64_t image_bytes() const { return image_bytes_; }
 
  private:
   /// Of one object.
@@ -91,6 +93,7 @@ class SequenceWriter {
   std::filesystem::path dir_;
   std::string object_;
   int frames_ = 0;
+  std::int64_t image_bytes_ = 0;
   bool pending_ = false;    ///< The last of them is not complete.
   std::string stamp_line_;  ///< Its line of data.txt.
   hal::Fault failure_;
@@ -102,5 +105,8 @@ class SequenceWriter {
   std::vector<std::uint8_t> mask_;
   LineFile world_poses_;
 };
+
+/// Removes everything that a sequence consists of, and nothing else that may be in its folder.
+[[nodiscard]] hal::Fault RemoveSequence(const std::filesystem::path& dir);
 
 }  // namespace disflow::host

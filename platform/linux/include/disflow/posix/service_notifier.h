@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <sys/socket.h>
-#include <sys/un.h>
-
 #include <cstdint>
 #include <string_view>
 
-#include "disflow/posix/file_descriptor.h"
+#include "disflow/posix/unix_datagrams.h"
 
 namespace disflow::posix {
 
@@ -19,7 +16,7 @@ class ServiceNotifier {
   ServiceNotifier() noexcept;
 
   /// @return true if somebody listens.
-  [[nodiscard]] bool active() const noexcept { return socket_.is_open(); }
+  [[nodiscard]] bool active() const noexcept { return manager_.is_open(); }
   /// The start is complete.
   void Ready() noexcept { Send("READY=1"); }
   /// The end has begun.
@@ -34,9 +31,7 @@ class ServiceNotifier {
  private:
   void Send(std::string_view message) noexcept;
 
-  FileDescriptor socket_;
-  sockaddr_un peer_{};
-  socklen_t peer_size_ = 0;
+  UnixDatagrams manager_;
   std::int64_t watchdog_ns_ = 0;  ///< 0: nobody watches.
   std::int64_t beat_ns_ = 0;
   bool beaten_ = false;

@@ -45,6 +45,35 @@ using ChooseRequest = disflow_msgs_srv_dds__ChooseObject_Request_;
 using ChooseResponse = disflow_msgs_srv_dds__ChooseObject_Response_;
 using QueryRequest = disflow_msgs_srv_dds__QueryDistanceField_Request_;
 using QueryResponse = disflow_msgs_srv_dds__QueryDistanceField_Response_;
+using ParameterValue = rcl_interfaces_msg_dds__ParameterValue_;
+using Parameter = rcl_interfaces_msg_dds__Parameter_;
+using SetParametersResult = rcl_interfaces_msg_dds__SetParametersResult_;
+using ParameterDescriptor = rcl_interfaces_msg_dds__ParameterDescriptor_;
+using FloatingPointRange = rcl_interfaces_msg_dds__FloatingPointRange_;
+using IntegerRange = rcl_interfaces_msg_dds__IntegerRange_;
+using ParameterEvent = rcl_interfaces_msg_dds__ParameterEvent_;
+using GetParametersRequest = rcl_interfaces_srv_dds__GetParameters_Request_;
+using GetParametersResponse = rcl_interfaces_srv_dds__GetParameters_Response_;
+using GetParameterTypesRequest = rcl_interfaces_srv_dds__GetParameterTypes_Request_;
+using GetParameterTypesResponse = rcl_interfaces_srv_dds__GetParameterTypes_Response_;
+using DescribeParametersRequest = rcl_interfaces_srv_dds__DescribeParameters_Request_;
+using DescribeParametersResponse = rcl_interfaces_srv_dds__DescribeParameters_Response_;
+using ListParametersRequest = rcl_interfaces_srv_dds__ListParameters_Request_;
+using ListParametersResponse = rcl_interfaces_srv_dds__ListParameters_Response_;
+using SetParametersRequest = rcl_interfaces_srv_dds__SetParameters_Request_;
+using SetParametersResponse = rcl_interfaces_srv_dds__SetParameters_Response_;
+using SetParametersAtomicallyRequest = rcl_interfaces_srv_dds__SetParametersAtomically_Request_;
+using SetParametersAtomicallyResponse = rcl_interfaces_srv_dds__SetParametersAtomically_Response_;
+using LifecycleState = lifecycle_msgs_msg_dds__State_;
+using TransitionDescription = lifecycle_msgs_msg_dds__TransitionDescription_;
+using GetStateRequest = lifecycle_msgs_srv_dds__GetState_Request_;
+using GetStateResponse = lifecycle_msgs_srv_dds__GetState_Response_;
+using ChangeStateRequest = lifecycle_msgs_srv_dds__ChangeState_Request_;
+using ChangeStateResponse = lifecycle_msgs_srv_dds__ChangeState_Response_;
+using GetAvailableStatesRequest = lifecycle_msgs_srv_dds__GetAvailableStates_Request_;
+using GetAvailableStatesResponse = lifecycle_msgs_srv_dds__GetAvailableStates_Response_;
+using GetAvailableTransitionsRequest = lifecycle_msgs_srv_dds__GetAvailableTransitions_Request_;
+using GetAvailableTransitionsResponse = lifecycle_msgs_srv_dds__GetAvailableTransitions_Response_;
 }  // namespace ros
 
 /// What Cyclone DDS has to know of a message that is sent or received as such.
@@ -70,6 +99,27 @@ template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::ChooseRequest
 template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::ChooseResponse>() noexcept { return disflow_msgs_srv_dds__ChooseObject_Response__desc; }
 template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::QueryRequest>() noexcept { return disflow_msgs_srv_dds__QueryDistanceField_Request__desc; }
 template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::QueryResponse>() noexcept { return disflow_msgs_srv_dds__QueryDistanceField_Response__desc; }
+template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::ParameterEvent>() noexcept { return rcl_interfaces_msg_dds__ParameterEvent__desc; }
+template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::GetParametersRequest>() noexcept { return rcl_interfaces_srv_dds__GetParameters_Request__desc; }
+template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::GetParametersResponse>() noexcept { return rcl_interfaces_srv_dds__GetParameters_Response__desc; }
+template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::GetParameterTypesRequest>() noexcept { return rcl_interfaces_srv_dds__GetParameterTypes_Request__desc; }
+template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::GetParameterTypesResponse>() noexcept { return rcl_interfaces_srv_dds__GetParameterTypes_Response__desc; }
+template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::DescribeParametersRequest>() noexcept { return rcl_interfaces_srv_dds__DescribeParameters_Request__desc; }
+template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::DescribeParametersResponse>() noexcept { return rcl_interfaces_srv_dds__DescribeParameters_Response__desc; }
+template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::ListParametersRequest>() noexcept { return rcl_interfaces_srv_dds__ListParameters_Request__desc; }
+template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::ListParametersResponse>() noexcept { return rcl_interfaces_srv_dds__ListParameters_Response__desc; }
+template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::SetParametersRequest>() noexcept { return rcl_interfaces_srv_dds__SetParameters_Request__desc; }
+template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::SetParametersResponse>() noexcept { return rcl_interfaces_srv_dds__SetParameters_Response__desc; }
+template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::SetParametersAtomicallyRequest>() noexcept { return rcl_interfaces_srv_dds__SetParametersAtomically_Request__desc; }
+template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::SetParametersAtomicallyResponse>() noexcept { return rcl_interfaces_srv_dds__SetParametersAtomically_Response__desc; }
+template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::GetStateRequest>() noexcept { return lifecycle_msgs_srv_dds__GetState_Request__desc; }
+template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::GetStateResponse>() noexcept { return lifecycle_msgs_srv_dds__GetState_Response__desc; }
+template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::ChangeStateRequest>() noexcept { return lifecycle_msgs_srv_dds__ChangeState_Request__desc; }
+template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::ChangeStateResponse>() noexcept { return lifecycle_msgs_srv_dds__ChangeState_Response__desc; }
+template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::GetAvailableStatesRequest>() noexcept { return lifecycle_msgs_srv_dds__GetAvailableStates_Request__desc; }
+template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::GetAvailableStatesResponse>() noexcept { return lifecycle_msgs_srv_dds__GetAvailableStates_Response__desc; }
+template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::GetAvailableTransitionsRequest>() noexcept { return lifecycle_msgs_srv_dds__GetAvailableTransitions_Request__desc; }
+template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::GetAvailableTransitionsResponse>() noexcept { return lifecycle_msgs_srv_dds__GetAvailableTransitions_Response__desc; }
 // clang-format on
 
 /// The text as a message points to it. Nobody writes through it: Cyclone DDS's structures are for

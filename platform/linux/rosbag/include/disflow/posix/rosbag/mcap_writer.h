@@ -43,6 +43,9 @@ class McapWriter {
   /// Writes the chunk and the index, and closes.
   [[nodiscard]] hal::Fault Close();
 
+  /// Of what is whole, without the index.
+  [[nodiscard]] std::uint64_t size_bytes() const noexcept { return size_; }
+
  private:
   struct Entry {
     std::size_t channel = 0;

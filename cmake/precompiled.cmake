@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Reading Eigen and the standard library is most of what a file of the programs takes to compile; with this it is done once.
+# Not for core and hal, whose flags are others (cmake/flags.cmake), nor by default: every file shall name what it includes,
+# which nobody notices with these.
+add_library(disflow_headers OBJECT ${PROJECT_SOURCE_DIR}/cmake/precompiled.cc)
+target_link_libraries(disflow_headers PRIVATE disflow::core disflow_warnings)
+target_precompile_headers(disflow_headers PRIVATE
+  <Eigen/Cholesky> <Eigen/Core> <Eigen/Eigenvalues> <Eigen/Geometry>
+  <algorithm> <array> <cmath> <deque> <filesystem> <fstream> <functional> <map> <memory> <optional> <span> <string> <vector>)
+
+function(disflow_precompile folder)
+  get_property(targets DIRECTORY ${folder} PROPERTY BUILDSYSTEM_TARGETS)
+  foreach(target IN LISTS targets)
+    get_target_property(type ${target} TYPE)
+    if(type MATCHES "^(STATIC_LIBRARY|EXECUTABLE)$")
+      # As in the precompiled headers.
+      target_compile_options(${target} PRIVATE -ffp-contract=off)
+      target_precompile_headers(${target} REUSE_FROM disflow_headers)
+    endif()
+  endforeach()
+  get_property(folders DIRECTORY ${folder} PROPERTY SUBDIRECTORIES)
+  foreach(inner IN LISTS folders)
+    disflow_precompile(${inner})
+  endforeach()
+endfunction()
+
+disflow_precompile(${PROJECT_SOURCE_DIR}/platform)
+disflow_precompile(${PROJECT_SOURCE_DIR}/apps)
