@@ -6,6 +6,7 @@
 #include "disflow/depth/seen_space_impl.h"
 #include "disflow/depth/segmenter_choice_impl.h"
 #include "disflow/depth/segmenter_impl.h"
+#include "disflow/depth/whole_windows_impl.h"
 #include "disflow/field/distance_field_fusion.h"
 #include "disflow/field/distance_field_training.h"
 #include "disflow/field/known_surface.h"

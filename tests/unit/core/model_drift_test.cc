@@ -7,6 +7,7 @@
 #include <random>
 
 #include "disflow/flow/normal_equations.h"
+#include "disflow/flow/residual_sums_impl.h"
 
 namespace disflow {
 namespace {

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <random>
 
+#include "disflow/flow/residual_sums_impl.h"
+
 namespace disflow::testing {
 namespace {
 

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "disflow/flow/normal_equations.h"
+#include "disflow/flow/residual_sums_impl.h"
 #include "disflow/geometry/covariance.h"
 
 namespace disflow {

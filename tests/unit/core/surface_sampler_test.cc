@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "disflow/depth/pixel_mask.h"
+#include "disflow/depth/whole_windows_impl.h"
 #include "disflow/limits.h"
 
 namespace disflow::testing {

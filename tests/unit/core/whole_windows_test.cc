@@ -7,6 +7,8 @@
 #include <random>
 #include <vector>
 
+#include "disflow/depth/whole_windows_impl.h"
+
 namespace disflow {
 namespace {
 

@@ -13,6 +13,7 @@ class NormalSums {
   /// @param lever_m The point relative to the centre of rotation.
   /// @param gradient Derivative of the residual by the point's position, object frame.
   /// @param per_radius Its derivative by the radius of the edges.
+  /// Defined in residual_sums_impl.h.
   void Add(const Vec3& lever_m, const Vec3& gradient, float residual_m, float weight,
            float per_radius = 0.0F) noexcept;
 
@@ -24,23 +25,6 @@ class NormalSums {
   Mat4 second_ = Mat4::Zero();
   Mat4 moments_ = Mat4::Zero();  ///< Of (lever, 1).
 };
-
-inline void NormalSums::Add(const Vec3& lever_m, const Vec3& gradient, float residual_m,
-                            float weight, float per_radius) noexcept {
-  const Vec3 turning = lever_m.cross(gradient);
-  const Mat<float, 4, 1> head(gradient.x(), gradient.y(), gradient.z(), turning.x());
-  const Mat<float, 4, 1> tail(turning.y(), turning.z(), per_radius, residual_m);
-  const Mat<float, 4, 1> place(lever_m.x(), lever_m.y(), lever_m.z(), 1.0F);
-  const Mat<float, 4, 1> weighted_head = weight * head;
-  const Mat<float, 4, 1> weighted_tail = weight * tail;
-  const Mat<float, 4, 1> weighted_place = weight * place;
-  for (int k = 0; k < 4; ++k) {
-    first_.col(k).head<4>() += head[k] * weighted_head;
-    first_.col(k).tail<4>() += head[k] * weighted_tail;
-    second_.col(k) += tail[k] * weighted_tail;
-    moments_.col(k) += place[k] * weighted_place;
-  }
-}
 
 /// The linearised problem of one closed-form step (section V-D): H = sum w J^T J, b = sum w J^T d,
 /// solved for H xi = -b. Beside the pose there is the radius that the object's edges are rounded

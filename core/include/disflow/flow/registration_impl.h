@@ -2,6 +2,7 @@
 #pragma once
 
 #include "disflow/flow/registration.h"
+#include "disflow/flow/residual_sums_impl.h"
 
 /// @file
 /// The steps of a registration: definitions of members of Registration.
