@@ -4,6 +4,12 @@
 #include <algorithm>
 
 namespace disflow {
+namespace {
+
+// Smaller shares are what noise cut off of the table.
+constexpr int kCrumbPercent = 10;
+
+}  // namespace
 
 bool BelongsToObject(const SurfaceVote& vote) noexcept {
   return vote.probed == 0 || 10 * vote.explained >= 3 * vote.probed;
@@ -28,8 +34,6 @@ bool GoesOn(const SurfaceVote& vote) noexcept {
 bool ChooseOfCut(SurfaceVote* votes, int count) noexcept {
   // New surface that comes into view in one frame is less of the object.
   constexpr int kMinKnownPercent = 85;
-  // Smaller shares are what noise cut off of the table.
-  constexpr int kMinPercent = 10;
   int explained = 0;
   SurfaceVote own;
   for (int c = 0; c < count; ++c) {
@@ -45,10 +49,21 @@ bool ChooseOfCut(SurfaceVote* votes, int count) noexcept {
   for (int c = 0; c < count; ++c) {
     SurfaceVote& vote = votes[c];
     vote.chosen =
-        cut_off ? vote.chosen && !GoesOn(vote) && 100 * vote.pixels >= kMinPercent * own.pixels
-                : 100 * vote.explained >= kMinPercent * explained;
+        cut_off ? vote.chosen && !GoesOn(vote) && 100 * vote.pixels >= kCrumbPercent * own.pixels
+                : 100 * vote.explained >= kCrumbPercent * explained;
   }
   return cut_off;
+}
+
+int LargestThatEnds(const SurfaceVote* votes, int count) noexcept {
+  int largest = 0;
+  int own = -1;
+  for (int c = 0; c < count; ++c) {
+    if (votes[c].pixels > votes[largest].pixels) largest = c;
+    if (!GoesOn(votes[c]) && (own < 0 || votes[c].pixels > votes[own].pixels)) own = c;
+  }
+  const bool is_crumb = own < 0 || 100 * votes[own].pixels < kCrumbPercent * votes[largest].pixels;
+  return is_crumb ? largest : own;
 }
 
 }  // namespace disflow

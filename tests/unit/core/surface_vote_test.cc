@@ -82,6 +82,14 @@ TEST(SurfaceVote, WhereTheModelExplainsNothing_TheChoiceStays) {
   EXPECT_FALSE(votes[1].chosen);
 }
 
+TEST(SurfaceVote, LostObject_IsLookedForInWhatEndsButNotInCrumbs) {
+  std::array votes{Table(), Own()};
+  EXPECT_EQ(LargestThatEnds(votes.data(), 2), 1);
+  votes[1].pixels = Table().pixels / 11;
+  EXPECT_EQ(LargestThatEnds(votes.data(), 2), 0);
+  EXPECT_EQ(LargestThatEnds(votes.data(), 1), 0);
+}
+
 TEST(SurfaceVote, UnderAMask_OnlyAModelThatPlainlyContradictsKeepsASurfaceOut) {
   SurfaceVote vote = Own();
   vote.masked = vote.pixels;

@@ -135,9 +135,6 @@ class Segmenter {
   void ChooseSurfaces(const DepthFrame& frame, const SegmenterConfig& config,
                       const ModelPrior& prior, Explains& explains, const Mask& mask) noexcept;
 
-  /// The largest surface that does not go on where the object cannot be, or the largest of all.
-  [[nodiscard]] int LargestOfItsOwn() noexcept;
-
   /// Under a mask. What the mask covers of a surface counts, however far it goes on outside: an
   /// object that touches its table is one surface with it.
   template <class Explains>

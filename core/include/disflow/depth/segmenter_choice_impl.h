@@ -114,18 +114,7 @@ void Segmenter<Limits>::ChooseSurfaces(const DepthFrame& frame, const SegmenterC
     any = any || vote(c).chosen;
   }
   // The prediction is far off.
-  if (!any && count > 0) vote(LargestOfItsOwn()).chosen = true;
-}
-
-template <class Limits>
-int Segmenter<Limits>::LargestOfItsOwn() noexcept {
-  int largest = 0;
-  for (int c = 1; c < surfaces_.components(); ++c) {
-    const bool ends = !GoesOn(vote(c));
-    const bool ends_largest = !GoesOn(vote(largest));
-    if (ends == ends_largest ? vote(c).pixels > vote(largest).pixels : ends) largest = c;
-  }
-  return largest;
+  if (!any && count > 0) vote(LargestThatEnds(votes_.data(), count)).chosen = true;
 }
 
 template <class Limits>

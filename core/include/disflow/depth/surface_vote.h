@@ -30,4 +30,8 @@ struct SurfaceVote {
 /// @return Whether the object was cut off.
 [[nodiscard]] bool ChooseOfCut(SurfaceVote* votes, int count) noexcept;
 
+/// Of `count` surfaces the largest that does not go on where the object cannot be, if it is more
+/// than a crumb beside the largest of all, which it is otherwise.
+[[nodiscard]] int LargestThatEnds(const SurfaceVote* votes, int count) noexcept;
+
 }  // namespace disflow
