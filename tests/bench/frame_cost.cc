@@ -73,8 +73,8 @@ struct Table {
 };
 
 template <class Profile>
-void Run(const std::deque<StoredFrame>& frames, bool counted) {
-  const auto tracker = std::make_unique<Tracker<Profile>>();
+void Run(const std::deque<StoredFrame>& frames, const Config& config, bool counted) {
+  const auto tracker = std::make_unique<Tracker<Profile>>(config);
   std::int64_t marks = 0;
   const StageClock clock{counted ? &Mark : &Now_ns, &marks};
   const Table table;
@@ -87,7 +87,7 @@ void Run(const std::deque<StoredFrame>& frames, bool counted) {
   }
 }
 
-using Runner = std::function<void(const std::deque<StoredFrame>&, bool)>;
+using Runner = std::function<void(const std::deque<StoredFrame>&, const Config&, bool)>;
 const std::map<std::string, Runner> kProfiles{{"micro", Run<profiles::Micro>},
                                               {"edge", Run<profiles::Edge>},
                                               {"dense", Run<profiles::Dense>}};
@@ -99,6 +99,7 @@ int main(int argc, char** argv) {
   std::string address;
   std::string profile = "edge";
   std::size_t frames = 300;
+  std::vector<int> seed_px;
   CLI::App app("Prints what each frame of a sequence costs the tracker, in ns by stage.",
                "frame_cost");
   app.add_option("--sensor", address, "Where depth images come from, as of disflow_track")
@@ -107,13 +108,22 @@ int main(int argc, char** argv) {
       ->check(CLI::IsMember(disflow::kProfiles))
       ->capture_default_str();
   app.add_option("--frames", frames, "At most so many")->capture_default_str();
+  app.add_option("--seed", seed_px, "A pixel on the object in the first frame")
+      ->delimiter(',')
+      ->expected(2)
+      ->type_name("U,V");
   CLI11_PARSE(app, argc, argv);
+  disflow::Config config;
+  if (!seed_px.empty()) {
+    config.segmenter.seed_u_px = seed_px[0];
+    config.segmenter.seed_v_px = seed_px[1];
+  }
   disflow::host::Sensor sensor;
   if (const auto fault = disflow::host::OpenSensor(address, sensor); !fault.ok()) {
     std::fprintf(stderr, "frame_cost: %s\n", fault.message);
     return 1;
   }
-  disflow::kProfiles.at(profile)(disflow::ReadFrames(*sensor.get(), frames),
+  disflow::kProfiles.at(profile)(disflow::ReadFrames(*sensor.get(), frames), config,
                                  RUNNING_ON_VALGRIND != 0);
   return 0;
 }

@@ -109,6 +109,7 @@ Simulation::Simulation(const SimulationOptions& options, std::vector<TriangleMes
   if (options.camera == CameraKind::kMoving) {
     camera_motion_.emplace(first.workspace.centre_m.z(), options.seed);
   }
+  if (options.support == SupportKind::kTable) table_up_ = UpFromTable();
   if (options.mask_delay > 0) late_.emplace(camera_, options.width_px, options.height_px);
   if (options.occluder == OccluderKind::kArm) arm_.emplace(first.radius_m, options.seed);
   if (options.occluder == OccluderKind::kHand)

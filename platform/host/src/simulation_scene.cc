@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <utility>
 
 #include "disflow/host/simulation.h"
 #include "scene_label.h"
@@ -21,6 +22,15 @@ Plane SeenFromEye(const Plane& plane, const Vec3d& eye_m) {
 Transform<Camera, Object, double> SeenFromEye(const Transform<Camera, Object, double>& T_co,
                                               const Vec3d& eye_m) {
   return {T_co.rotation(), Vec3d(T_co.translation() - eye_m)};
+}
+
+/// Of the mesh's points, how far the lowest is up.
+template <class Frame>
+double LowestAlong(const Vec3d& up, const TriangleMesh& mesh,
+                   const Transform<Frame, Object, double>& pose) {
+  double lowest_m = std::numeric_limits<double>::max();
+  for (const Vec3d& vertex : mesh.vertices) lowest_m = std::min(lowest_m, up.dot(pose * vertex));
+  return lowest_m;
 }
 
 }  // namespace
@@ -86,16 +96,33 @@ void Simulation::DrawOccluder(double time_s, const FrameTruth& truth, const Vec3
   }
 }
 
+/// Which way the table is up, in the world: of the axes of the first object as it starts the one
+/// nearest to the camera's upward direction, of those that leave the camera above the table.
+Vec3d Simulation::UpFromTable() const {
+  // The camera starts at the world's origin, and its y axis points down.
+  const auto& start = bodies_.front().motion->At(0.0).pose;
+  std::pair<bool, double> best{false, -std::numeric_limits<double>::max()};
+  Vec3d best_up = -Vec3d::UnitY();
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double sign : {1.0, -1.0}) {
+      const Vec3d up = sign * start.rotation().col(axis);
+      const double lowest_m = LowestAlong(up, bodies_.front().mesh, start);
+      const std::pair<bool, double> how_well{lowest_m < 0.0, -up.y()};
+      if (how_well <= best) continue;
+      best = how_well;
+      best_up = up;
+    }
+  }
+  return best_up;
+}
+
 /// Below the object's lowest point, whatever its attitude; camera frame.
 Plane Simulation::TableAt(double time_s, const FrameTruth& truth) const {
   constexpr double kLiftOff_s = 1.0;
   constexpr double kLift_mps = 0.3;
   // Level with the object's start in the world.
-  const Vec3d up = truth.camera.pose.rotation().transpose() *
-                   bodies_.front().motion->At(0.0).pose.rotation() * Vec3d::UnitZ();
-  double lowest_m = std::numeric_limits<double>::max();
-  for (const Vec3d& vertex : bodies_.front().mesh.vertices)
-    lowest_m = std::min(lowest_m, up.dot(truth.object.pose * vertex));
+  const Vec3d up = truth.camera.pose.rotation().transpose() * table_up_;
+  const double lowest_m = LowestAlong(up, bodies_.front().mesh, truth.object.pose);
   return {up, lowest_m - kLift_mps * std::max(0.0, time_s - kLiftOff_s)};
 }
 

@@ -313,6 +313,20 @@ TEST_F(LaterFrame, ObjectThatLeftItsTable_TouchesNothingAnyMore) {
   EXPECT_FALSE(segmenter_->contact().touches);
 }
 
+TEST_F(LaterFrame, ObjectThatMovedOutOfTheMargin_IsWhatLiesWithinItAndTouchesNothing) {
+  constexpr int kShift_px = 11;
+  const auto reach_px =
+      static_cast<int>(config_.model_margin_m * DepthScene::kFocal_px / kObject_m);
+  ASSERT_GT(kShift_px, reach_px);
+  const PixelBox moved{kObject.u_min + kShift_px, kObject.v_min, kObject.u_max + kShift_px,
+                       kObject.v_max};
+  DepthScene scene(2.2F);
+  ASSERT_EQ(Segment(scene.Rectangle(moved, kObject_m)), Status::kOk);
+  EXPECT_EQ(Share({moved.u_min, moved.v_min, kObject.u_max + reach_px, moved.v_max}), 1.0);
+  EXPECT_EQ(Share({kObject.u_max + reach_px + 2, moved.v_min, moved.u_max, moved.v_max}), 0.0);
+  EXPECT_FALSE(segmenter_->contact().touches);
+}
+
 TEST_F(LaterFrame, ThingBesideTheModelAtAnotherDepth_IsNotTheObject) {
   DepthScene scene = ObjectOverATable();
   // Within the margin of the model, but nothing of it is known surface.

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
 #include <random>
+#include <vector>
 
 #include "depth_scene.h"
 #include "disflow/depth/valley_cut_impl.h"
@@ -26,18 +28,20 @@ class ValleyCutTest : public ::testing::Test {
     const DepthReader depth(frame.depth, 0.1F, 10.0F);
     valleys_->Start(depth, frame.camera, box, kDistance_m);
     for (auto& row : cut_) row.fill(false);
+    for (int v = box.v_min; v < box.v_max; ++v) CutRow(depth, v, box.u_min, box.u_max);
+  }
+  /// Of the image that the cut was started with.
+  void CutRow(const DepthReader& depth, int v, int u_begin, int u_end) {
     std::array<float, DepthScene::kWidth_px> row_m;
-    for (int v = box.v_min; v < box.v_max; ++v) {
-      depth.ReadRow(v, box.u_min, box.u_max, row_m.data());
-      const auto before_m = row_m;
-      (*valleys_)(depth, v, box.u_min, box.u_max, row_m.data());
-      for (int u = box.u_min; u < box.u_max; ++u) {
-        const auto i = static_cast<std::size_t>(u - box.u_min);
-        cut_[static_cast<std::size_t>(v)][static_cast<std::size_t>(u)] =
-            before_m[i] > 0.0F && row_m[i] <= 0.0F;
-        if (row_m[i] > 0.0F) {
-          EXPECT_EQ(row_m[i], before_m[i]);
-        }
+    depth.ReadRow(v, u_begin, u_end, row_m.data());
+    const auto before_m = row_m;
+    (*valleys_)(depth, v, u_begin, u_end, row_m.data());
+    for (int u = u_begin; u < u_end; ++u) {
+      const auto i = static_cast<std::size_t>(u - u_begin);
+      cut_[static_cast<std::size_t>(v)][static_cast<std::size_t>(u)] =
+          before_m[i] > 0.0F && row_m[i] <= 0.0F;
+      if (row_m[i] > 0.0F) {
+        EXPECT_EQ(row_m[i], before_m[i]);
       }
     }
   }
@@ -51,9 +55,10 @@ class ValleyCutTest : public ::testing::Test {
     return count;
   }
 
+  using Picture = std::array<std::array<bool, DepthScene::kWidth_px>, DepthScene::kHeight_px>;
   std::unique_ptr<ValleyCut<DepthScene::kWidth_px>> valleys_ =
       std::make_unique<ValleyCut<DepthScene::kWidth_px>>();
-  std::array<std::array<bool, DepthScene::kWidth_px>, DepthScene::kHeight_px> cut_{};
+  Picture cut_{};
 };
 
 /// Two planes that meet in column kFold_px, or row if `across`.
@@ -161,6 +166,110 @@ TEST_F(ValleyCutTest, BoxesOfAnyPlaceAndSize_AreReadWithinTheImage) {
         }
       }
     }
+  }
+}
+
+/// Waves and noise that are cut here and there, in all rows.
+DepthScene Crumpled(unsigned seed) {
+  DepthScene scene;
+  std::minstd_rand random(seed);
+  std::normal_distribution<float> normal(0.0F, 0.001F);
+  std::bernoulli_distribution lost(0.005);
+  scene.Draw(kImage, [&](int u, int v) {
+    const float a = std::abs(std::sin(static_cast<float>(u + 2 * v) / 17.0F));
+    const float b = std::abs(std::sin(static_cast<float>(3 * v - u) / 23.0F));
+    return lost(random) ? 0.0F : 1.0F / (1.9F + 0.25F * (a + b) + normal(random));
+  });
+  return scene;
+}
+
+/// The same, row by row, each by an object that has seen none before.
+class ValleyCutRows : public ValleyCutTest {
+ protected:
+  void CutAfresh(const DepthScene& scene, const PixelBox& box) {
+    const DepthFrame frame = scene.frame();
+    const DepthReader depth(frame.depth, 0.1F, 10.0F);
+    for (auto& row : cut_) row.fill(false);
+    for (int v = box.v_min; v < box.v_max; ++v) {
+      valleys_ = std::make_unique<ValleyCut<DepthScene::kWidth_px>>();
+      valleys_->Start(depth, frame.camera, box, kDistance_m);
+      CutRow(depth, v, box.u_min, box.u_max);
+    }
+  }
+};
+
+TEST_F(ValleyCutRows, OneAfterTheOther_AreCutAsEachAlone) {
+  for (const PixelBox& box : {kImage, PixelBox{13, 7, 102, 95}, PixelBox{40, 60, 160, 120}}) {
+    const DepthScene scene = Crumpled(1);
+    CutAfresh(scene, box);
+    const Picture alone = cut_;
+    EXPECT_GT(Count(), 300);
+    Cut(Crumpled(2));  // what is held of an image before
+    Cut(scene, box);
+    EXPECT_EQ(cut_, alone);
+  }
+}
+
+TEST_F(ValleyCutRows, InAnyOrderAndAgain_AreCutAsEachAlone) {
+  const DepthScene scene = Crumpled(3);
+  CutAfresh(scene, kImage);
+  const Picture alone = cut_;
+  const DepthFrame frame = scene.frame();
+  const DepthReader depth(frame.depth, 0.1F, 10.0F);
+  valleys_ = std::make_unique<ValleyCut<DepthScene::kWidth_px>>();
+  valleys_->Start(depth, frame.camera, kImage, kDistance_m);
+  std::minstd_rand random(4);
+  std::uniform_int_distribution<int> any(0, DepthScene::kHeight_px - 1);
+  for (int k = 0; k < 200; ++k) {
+    // A few rows down, from anywhere.
+    const int first = any(random);
+    for (int v = first; v < std::min(first + k % 30, DepthScene::kHeight_px); ++v) {
+      const auto row = static_cast<std::size_t>(v);
+      CutRow(depth, v, 0, DepthScene::kWidth_px);
+      ASSERT_EQ(cut_[row], alone[row]) << v;
+    }
+  }
+}
+
+// Other columns of a row may be asked for than those before.
+TEST_F(ValleyCutRows, OfOtherColumns_AreCutAsInTheWholeImage) {
+  const DepthScene scene = Crumpled(5);
+  Cut(scene);
+  const Picture whole = cut_;
+  const DepthFrame frame = scene.frame();
+  const DepthReader depth(frame.depth, 0.1F, 10.0F);
+  for (int v = 0; v < DepthScene::kHeight_px; ++v) {
+    const auto row = static_cast<std::size_t>(v);
+    const int middle = (7 * v) % (DepthScene::kWidth_px - 1) + 1;
+    cut_[row].fill(false);
+    CutRow(depth, v, 0, middle);
+    CutRow(depth, v, middle, DepthScene::kWidth_px);
+    ASSERT_EQ(cut_[row], whole[row]) << v;
+  }
+}
+
+// What was read is wiped out of the image: the row itself and what it was compared with below.
+TEST_F(ValleyCutRows, FromTopToBottom_AreReadOnce) {
+  DepthScene scene = Crumpled(6);
+  const DepthScene intact = scene;
+  Cut(scene);
+  const Picture whole = cut_;
+  const DepthFrame frame = scene.frame();
+  const DepthReader depth(frame.depth, 0.1F, 10.0F);
+  valleys_->Start(depth, frame.camera, kImage, kDistance_m);
+  const int reach_px = valleys_->reach_px();
+  for (int v = 0; v < DepthScene::kHeight_px; v += 2) {
+    for (int k = v; k < v + 2; ++k) {
+      std::array<float, DepthScene::kWidth_px> row_m;
+      const DepthFrame unwiped = intact.frame();
+      DepthReader(unwiped.depth, 0.1F, 10.0F).ReadRow(k, 0, DepthScene::kWidth_px, row_m.data());
+      const auto before_m = row_m;
+      (*valleys_)(depth, k, 0, DepthScene::kWidth_px, row_m.data());
+      for (std::size_t u = 0; u < row_m.size(); ++u)
+        ASSERT_EQ(before_m[u] != row_m[u], whole[static_cast<std::size_t>(k)][u]) << k;
+    }
+    for (const int read : {v, v + reach_px})
+      scene.Rectangle(Common(kImage, {0, read, DepthScene::kWidth_px, read + 2}), 0.0F);
   }
 }
 

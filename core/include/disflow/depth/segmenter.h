@@ -60,11 +60,11 @@ class Segmenter {
     } else {
       if (frame.mask.given()) {
         Look({}, frame, config, prior, explains, object);
+        counters.runs_dropped += static_cast<std::uint32_t>(surfaces_.dropped());
+        if (!IsExact(object)) Redraw(frame, prior, explains, object);
       } else {
-        LookAround(frame, config, prior, explains, object);
+        counters.runs_dropped += LookAround(frame, config, prior, explains, object);
       }
-      counters.runs_dropped += static_cast<std::uint32_t>(surfaces_.dropped());
-      if (!frame.mask.given() || !IsExact(object)) Redraw(frame, prior, explains, object);
     }
     if (frame.mask.given()) {
       band_.Restrict(object);
@@ -107,10 +107,13 @@ class Segmenter {
   void Look(const Manner& manner, const DepthFrame& frame, const SegmenterConfig& config,
             const ModelPrior& prior, Explains& explains, const Mask& mask) noexcept;
 
-  /// The same without a mask, in the manner that the object's surroundings ask for.
+  /// The same without a mask, in the manner that the object's surroundings ask for, and draws what
+  /// was chosen.
+  /// @return The runs that were dropped.
   template <class Explains>
-  void LookAround(const DepthFrame& frame, const SegmenterConfig& config, const ModelPrior& prior,
-                  Explains& explains, const Mask& mask) noexcept;
+  [[nodiscard]] std::uint32_t LookAround(const DepthFrame& frame, const SegmenterConfig& config,
+                                         const ModelPrior& prior, Explains& explains,
+                                         Mask& object) noexcept;
 
   /// Connected surfaces of what could be the object.
   void BuildSurfaces(const DepthFrame& frame, const SegmenterConfig& config,

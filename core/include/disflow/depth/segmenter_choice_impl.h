@@ -30,24 +30,31 @@ void Segmenter<Limits>::Look(const Manner& manner, const DepthFrame& frame,
 /// where the object cannot be. Surfaces are then cut where they fold towards the camera.
 template <class Limits>
 template <class Explains>
-void Segmenter<Limits>::LookAround(const DepthFrame& frame, const SegmenterConfig& config,
-                                   const ModelPrior& prior, Explains& explains,
-                                   const Mask& mask) noexcept {
+std::uint32_t Segmenter<Limits>::LookAround(const DepthFrame& frame, const SegmenterConfig& config,
+                                            const ModelPrior& prior, Explains& explains,
+                                            Mask& object) noexcept {
   const auto goes_on = [&](const Manner& manner) {
-    Look(manner, frame, config, prior, explains, mask);
+    Look(manner, frame, config, prior, explains, object);
     return ObjectGoesOn();
+  };
+  const auto draw = [&] {
+    Redraw(frame, prior, explains, object);
+    return static_cast<std::uint32_t>(surfaces_.dropped());
   };
   const float far = prior.known ? kFarMargins : 1.0F;
   if (!prior.known || !prior.contact.touches) {
-    if (!goes_on({})) return;
-    if (prior.known && !goes_on({.margins = far})) {
-      (void)goes_on({});  // As it moves it reached out of the margin, no more.
-      return;
+    if (!goes_on({})) return draw();
+    if (prior.known) {
+      // As it moves it may have reached out of the margin, no more. Drawn now, since looking again
+      // forgets what was seen.
+      const std::uint32_t dropped = draw();
+      if (!goes_on({.margins = far})) return dropped;
     }
   }
   contact_.touches = goes_on({.margins = far, .cut = true});
   if (prior.known && !prior.doubtful)
     contact_.merged = !ChooseOfCut(votes_.data(), surfaces_.components());
+  return draw();
 }
 
 template <class Limits>

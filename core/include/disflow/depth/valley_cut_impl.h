@@ -17,7 +17,7 @@ void ValleyCut<kMaxWidth>::Start(const DepthReader& depth, const PinholeCamera& 
                                  const PixelBox& box, float distance_m) noexcept {
   constexpr float kMedianPerSigma = 0.6745F;
   constexpr float kSecondPerThird = 0.5477F;  // sqrt(6 / 20), from the sums of squared weights
-  row_ = -1;
+  Forget(box.u_min / kCellPx, (box.u_max - 1) / kCellPx + 1);
   stride_ = 0;
   const float median_per_m = Median(depth, box, [](const Line& w) { return w[0]; });
   if (!(median_per_m > 0.0F)) return;
@@ -35,8 +35,10 @@ template <int kMaxWidth>
 void ValleyCut<kMaxWidth>::operator()(const DepthReader& depth, int v, int u_begin, int u_end,
                                       float* depth_m) noexcept {
   if (stride_ == 0 || u_begin >= u_end) return;
-  if (v / kCellPx != row_)
-    FlagRow(depth, v / kCellPx, u_begin / kCellPx, (u_end - 1) / kCellPx + 1);
+  const int begin = u_begin / kCellPx;
+  const int end = (u_end - 1) / kCellPx + 1;
+  if (begin != begin_ || end != end_) Forget(begin, end);
+  if (v / kCellPx != row_) FlagRow(depth, v / kCellPx);
   for (int u = u_begin; u < u_end; ++u) {
     if (valley_[static_cast<std::size_t>(u / kCellPx)] != 0) depth_m[u - u_begin] = 0.0F;
   }
@@ -88,31 +90,39 @@ float ValleyCut<kMaxWidth>::CellAt(const DepthReader& depth, int u, int v) noexc
   return sum / (kCellPx * kCellPx);
 }
 
+/// Nothing is held; next come rows of the columns [begin, end).
 template <int kMaxWidth>
-void ValleyCut<kMaxWidth>::FlagRow(const DepthReader& depth, int row, int begin, int end) noexcept {
+void ValleyCut<kMaxWidth>::Forget(int begin, int end) noexcept {
+  begin_ = begin;
+  end_ = end;
+  row_ = kNoRow;
+  held_.fill(kNoRow);
+}
+
+template <int kMaxWidth>
+void ValleyCut<kMaxWidth>::FlagRow(const DepthReader& depth, int row) noexcept {
   row_ = row;
-  ReadCells(depth, row, begin - stride_, end + stride_, here_);
-  std::fill(valley_.begin() + begin, valley_.begin() + end, std::uint8_t{0});
+  std::fill(valley_.begin() + begin_, valley_.begin() + end_, std::uint8_t{0});
+  const Cells& here = CellsOf(depth, row);
   // The shorter stride sees what is close beside an outline or a hole.
-  for (const int stride : {stride_, std::max(stride_ / 2, kLeastStride)}) {
-    ReadCells(depth, row - stride, begin, end, above_);
-    ReadCells(depth, row + stride, begin, end, below_);
-    FlagFolds(stride, begin, end);
-  }
+  for (const int stride : {stride_, std::max(stride_ / 2, kLeastStride)})
+    FlagFolds(stride, CellsOf(depth, row - stride), here, CellsOf(depth, row + stride));
 }
 
 /// Without branches, so that compilers use vector instructions.
 template <int kMaxWidth>
-void ValleyCut<kMaxWidth>::FlagFolds(int stride, int begin, int end) noexcept {
+void ValleyCut<kMaxWidth>::FlagFolds(int stride, const Cells& above_per_m, const Cells& here_per_m,
+                                     const Cells& below_per_m) noexcept {
   const float least_per_m = least_per_m_;
   const float least_fold = least_fold_ * static_cast<float>(stride);
-  const float* here = At(here_, begin);
-  const float* left = At(here_, begin - stride);
-  const float* right = At(here_, begin + stride);
-  const float* above = At(above_, begin);
-  const float* below = At(below_, begin);
-  std::uint8_t* valley = valley_.data() + begin;
-  for (int i = 0; i < end - begin; ++i) {
+  const float* here = At(here_per_m, begin_);
+  const float* left = At(here_per_m, begin_ - stride);
+  const float* right = At(here_per_m, begin_ + stride);
+  const float* above = At(above_per_m, begin_);
+  const float* below = At(below_per_m, begin_);
+  std::uint8_t* valley = valley_.data() + begin_;
+  const int count = end_ - begin_;
+  for (int i = 0; i < count; ++i) {
     const float fold = least_fold * here[i];
     const float least = 2.0F * here[i] + (fold > least_per_m ? fold : least_per_m);
     const int across = int{left[i] > 0.0F} & int{right[i] > 0.0F} & int{left[i] + right[i] > least};
@@ -123,10 +133,23 @@ void ValleyCut<kMaxWidth>::FlagFolds(int stride, int begin, int end) noexcept {
   }
 }
 
-/// Cells [begin, end) of a row; beyond the image 0, without depth not positive.
+/// A row, read unless it is held. Takes the place of the one kRows away, too far to be compared
+/// with any that this one is.
 template <int kMaxWidth>
-void ValleyCut<kMaxWidth>::ReadCells(const DepthReader& depth, int row, int begin, int end,
-                                     Cells& cells) noexcept {
+auto ValleyCut<kMaxWidth>::CellsOf(const DepthReader& depth, int row) noexcept -> const Cells& {
+  const auto place = static_cast<std::size_t>((row + kRows) % kRows);  // above the image row < 0
+  if (held_[place] != row) {
+    held_[place] = row;
+    ReadCells(depth, row, cells_[place]);
+  }
+  return cells_[place];
+}
+
+/// Cells of a row and a stride beside; beyond the image 0, without depth not positive.
+template <int kMaxWidth>
+void ValleyCut<kMaxWidth>::ReadCells(const DepthReader& depth, int row, Cells& cells) noexcept {
+  const int begin = begin_ - stride_;
+  const int end = end_ + stride_;
   std::fill(At(cells, begin), At(cells, end), 0.0F);
   if (row < 0 || row >= depth.height_px() / kCellPx) return;
   const int first = std::max(begin, 0);

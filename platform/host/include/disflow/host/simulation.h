@@ -93,6 +93,7 @@ class Simulation {
   void DrawMasks(int index);
   void DisturbMasks(int index);
   [[nodiscard]] int SourceOf(int index) const;
+  [[nodiscard]] Vec3d UpFromTable() const;
   [[nodiscard]] Plane TableAt(double time_s, const FrameTruth& truth) const;
   [[nodiscard]] DepthView DepthToDeliver();
   [[nodiscard]] MaskView ViewOf(std::span<const std::uint8_t> mask) const;
@@ -101,6 +102,7 @@ class Simulation {
   PinholeCamera camera_;
   std::vector<Body> bodies_;
   std::optional<CameraMotion> camera_motion_;
+  Vec3d table_up_ = -Vec3d::UnitY();  ///< World.
   std::optional<OccludingArm> arm_;
   std::optional<TouchingHand> hand_;
   DepthRenderer renderer_;
