@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "disflow/flow/twist_filter.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 
 #include "disflow/geometry/covariance.h"
@@ -47,6 +48,17 @@ PoseCameraFromObject Displaced(const PoseCameraFromObject& T_co,
   return PoseCameraFromObject(Mat3(ExpSo3(rotation_vector) * T_co.rotation()),
                               Vec3(T_co.translation() + displacement.head<3>()))
       .Normalized();
+}
+
+/// The covariance of a measurement beside a prediction in float: what is known a million times
+/// better than the rest cannot be told from the rest's rounding errors.
+Mat6 Resolvable(const Mat6& measured, const Mat6& predicted) noexcept {
+  constexpr float kPrecision = 1e-6F;  // of a variance, 8 times float's
+  const Vec6 largest = measured.diagonal().cwiseMax(predicted.diagonal());
+  Mat6 result = measured;
+  result.diagonal().head<3>().array() += kPrecision * largest.head<3>().maxCoeff();
+  result.diagonal().tail<3>().array() += kPrecision * largest.tail<3>().maxCoeff();
+  return result;
 }
 
 }  // namespace
@@ -138,34 +150,44 @@ void TwistFilter::Update(const PoseCameraFromObject& T_co, const Mat6& pose_cova
   Vec6 innovation;
   innovation.head<3>() = T_co.translation() - T_co_.translation();
   innovation.tail<3>() = TurnBetween(T_co_.rotation(), T_co.rotation());
-  SymmetricSolver6 solver(covariance_[0][0] + pose_covariance);
+  const Mat6 noise = Resolvable(pose_covariance, covariance_[0][0]);
+  const Eigen::LLT<Mat6> cholesky(noise);
+  const SymmetricSolver6 solver(covariance_[0][0] + noise);
   // Only for a measurement that is not finite; the prediction stands.
-  if (!solver.ok() || !innovation.allFinite()) return;
-  if (innovation.dot(solver.Solve(innovation)) > kImpulseNis) {
-    AddImpulse();
-    solver = SymmetricSolver6(covariance_[0][0] + pose_covariance);
-    if (!solver.ok()) return;
-  }
+  if (cholesky.info() != Eigen::Success || !solver.ok() || !innovation.allFinite()) return;
+  if (innovation.dot(solver.Solve(innovation)) > kImpulseNis) AddImpulse();
 
-  std::array<Mat6, kBlocks> gain;
-  for (std::size_t i = 0; i < kBlocks; ++i) {
-    gain[i] = solver.Solve(Mat6(covariance_[i][0].transpose())).transpose();
+  // Along independent axes, one after the other: a matrix of all of them at once, of which some are
+  // known a million times better than others, has no inverse in float.
+  const Mat6 factor = cholesky.matrixL();
+  std::array<Vec6, kBlocks> correction{Vec6::Zero(), Vec6::Zero(), Vec6::Zero()};
+  for (int k = 0; k < 6; ++k) {
+    // Row k of L^-1: its measurement has the variance 1.
+    const Vec6 axis = factor.triangularView<Eigen::Lower>().transpose().solve(Vec6(Vec6::Unit(k)));
+    UpdateAlong(axis, axis.dot(innovation - correction[0]), correction);
   }
-  T_co_ = Displaced(T_co_, gain[0] * innovation);
-  twist_ += gain[1] * innovation;
-  acceleration_ += gain[2] * innovation;
+  T_co_ = Displaced(T_co_, correction[0]);
+  twist_ += correction[1];
+  acceleration_ += correction[2];
+}
 
-  const std::array<Mat6, kBlocks> cross{covariance_[0][0], covariance_[0][1], covariance_[0][2]};
+/// Takes one number into account, axis . pose, measured with the variance 1.
+/// @param deviation What it differs by from what is expected by now.
+void TwistFilter::UpdateAlong(const Vec6& axis, float deviation,
+                              std::array<Vec6, kBlocks>& correction) noexcept {
+  std::array<Vec6, kBlocks> cross;
+  for (std::size_t i = 0; i < kBlocks; ++i) cross[i] = covariance_[i][0] * axis;
+  const float variance = 1.0F + std::max(axis.dot(cross[0]), 0.0F);
   for (std::size_t i = 0; i < kBlocks; ++i) {
-    for (std::size_t j = i; j < kBlocks; ++j) {
-      covariance_[i][j] -= gain[i] * cross[j];
-      if (i == j) {
-        // Rounding must not make the covariance asymmetric over thousands of frames.
-        covariance_[i][i] = 0.5F * (covariance_[i][i] + covariance_[i][i].transpose().eval());
-      } else {
-        covariance_[j][i] = covariance_[i][j].transpose();
-      }
-    }
+    const Vec6 gain = cross[i] / variance;
+    correction[i] += deviation * gain;
+    for (std::size_t j = i; j < kBlocks; ++j)
+      covariance_[i][j].noalias() -= gain * cross[j].transpose();
+  }
+  // Rounding must not make the covariance asymmetric.
+  for (std::size_t i = 0; i < kBlocks; ++i) {
+    covariance_[i][i] = 0.5F * (covariance_[i][i] + covariance_[i][i].transpose().eval());
+    for (std::size_t j = 0; j < i; ++j) covariance_[i][j] = covariance_[j][i].transpose();
   }
 }
 

@@ -61,7 +61,7 @@ class Segmenter {
       if (frame.mask.given()) {
         Look({}, frame, config, prior, explains, object);
         counters.runs_dropped += static_cast<std::uint32_t>(surfaces_.dropped());
-        if (!IsExact(object)) Redraw(frame, prior, explains, object);
+        Redraw(frame, prior, explains, object);
       } else {
         counters.runs_dropped += LookAround(frame, config, prior, explains, object);
       }
@@ -188,10 +188,6 @@ class Segmenter {
     });
   }
 
-  /// Whether the outline of the mask and that of the chosen surfaces are the same but for the
-  /// pixels that a sensor loses along any outline.
-  [[nodiscard]] bool IsExact(Mask& mask) noexcept;
-
   /// Draws the object anew from the chosen surfaces: those parts that the mask covers, or that the
   /// model explains and the mask's tolerance allows.
   template <class Explains>
@@ -209,9 +205,6 @@ class Segmenter {
   static constexpr int kBridgedGapPx = 3;
   static constexpr int kProbeStepPx = 8;
   static constexpr int kClosingPx = 2;
-  static constexpr float kOutsidePx = 0.5F;
-  static constexpr float kLostPx = 1.5F;
-  static constexpr float kLostShare = 0.02F;
 
   Surfaces surfaces_;
   PlaneRemoval planes_;

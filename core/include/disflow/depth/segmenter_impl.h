@@ -87,29 +87,6 @@ ModelGate Segmenter<Limits>::GateOf(const DepthFrame& frame, const SegmenterConf
 }
 
 template <class Limits>
-bool Segmenter<Limits>::IsExact(Mask& mask) noexcept {
-  int covered = 0;
-  int outside = 0;
-  PixelBox bounds{box_.u_max, box_.v_max, box_.u_min, box_.v_min};
-  surfaces_.ForEachRun([&](int c, const PixelRun& run) {
-    if (c == Surfaces::kNoComponent || !vote(c).chosen) return;
-    const int inside = mask.row(run.v).CountRun(run.u_begin, run.u_end);
-    covered += inside;
-    outside += run.length() - inside;
-    if (inside == 0) return;
-    bounds.u_min = std::min(bounds.u_min, static_cast<int>(run.u_begin));
-    bounds.u_max = std::max(bounds.u_max, static_cast<int>(run.u_end));
-    bounds.v_min = std::min(bounds.v_min, static_cast<int>(run.v));
-    bounds.v_max = std::max(bounds.v_max, static_cast<int>(run.v) + 1);
-  });
-  if (covered == 0) return false;
-  const auto outline = 2.0F * static_cast<float>(bounds.width() + bounds.height());
-  const auto lost = static_cast<float>(mask.count() - covered);
-  return static_cast<float>(outside) < kOutsidePx * outline &&
-         lost < kLostPx * outline + kLostShare * static_cast<float>(mask.count());
-}
-
-template <class Limits>
 template <class Explains>
 void Segmenter<Limits>::Redraw(const DepthFrame& frame, const ModelPrior& prior, Explains& explains,
                                Mask& object) noexcept {

@@ -45,6 +45,8 @@ class TwistFilter {
   void Turn(const Mat3& rotation) noexcept;
   void AddProcessNoise(float dt_s) noexcept;
   void AddImpulse() noexcept;
+  void UpdateAlong(const Vec6& axis, float deviation,
+                   std::array<Vec6, kBlocks>& correction) noexcept;
 
   TwistFilterConfig config_{};
   StampNs stamp_ns_ = 0;
