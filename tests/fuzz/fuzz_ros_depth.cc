@@ -27,7 +27,8 @@ void CheckPlain(FuzzedNumbers& input, posix::RosDepthDecoder& decoder) {
                         .width_px = input.Take<std::uint32_t>(),
                         .height_px = input.Take<std::uint32_t>(),
                         .step_bytes = input.Take<std::uint32_t>(),
-                        .is_big_endian = input.Take<std::uint8_t>() % 2 != 0};
+                        .is_big_endian = input.Take<std::uint8_t>() % 2 != 0,
+                        .data = {}};
   image.data = input.rest();
   DepthView depth;
   const hal::Fault fault = decoder.Decode(image, depth);
