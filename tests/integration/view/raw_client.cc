@@ -27,7 +27,8 @@ RawClient::RawClient(int port) : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CL
 
 bool RawClient::Send(std::string_view bytes) {
   while (!bytes.empty() && !closed_) {
-    const ssize_t sent = send(socket_.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL);
+    const ssize_t sent = posix::RetryOnSignal(
+        [&] { return send(socket_.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL); });
     if (sent <= 0) return false;
     bytes.remove_prefix(static_cast<std::size_t>(sent));
   }
@@ -38,9 +39,12 @@ void RawClient::EndSending() { (void)shutdown(socket_.get(), SHUT_WR); }
 
 bool RawClient::Receive(std::string& text) {
   pollfd ready = {socket_.get(), POLLIN, 0};
-  if (closed_ || poll(&ready, 1, kPatience_ms) <= 0) return false;
+  if (closed_) return false;
+  // A fuzzer's alarm clock is no end of the connection.
+  if (posix::RetryOnSignal([&] { return poll(&ready, 1, kPatience_ms); }) <= 0) return false;
   std::array<char, 4096> bytes{};
-  const ssize_t size = recv(socket_.get(), bytes.data(), bytes.size(), 0);
+  const ssize_t size =
+      posix::RetryOnSignal([&] { return recv(socket_.get(), bytes.data(), bytes.size(), 0); });
   closed_ = size <= 0;
   if (!closed_) text.append(bytes.data(), static_cast<std::size_t>(size));
   return !closed_;
