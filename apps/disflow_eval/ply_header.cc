@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ply_header.h"
 
+#include <algorithm>
 #include <charconv>
+#include <system_error>
 #include <utility>
 
 #include "errors.h"
@@ -38,15 +40,22 @@ bool ParseFormat(const fs::path& file, std::size_t line, const Words& words) {
       "the format must be 'ascii 1.0' or 'binary_little_endian 1.0'; write the mesh anew");
 }
 
-PlyElement ParseElement(const fs::path& file, std::size_t line, const Words& words) {
+void AddElement(const fs::path& file, std::size_t line, const Words& words, PlyHeader& header) {
   PlyElement element;
+  std::from_chars_result read{nullptr, std::errc::invalid_argument};
   if (words.size() == 3) {
     element.name = words[1];
     const char* const end = words[2].data() + words[2].size();
-    const auto [stop, error] = std::from_chars(words[2].data(), end, element.count);
-    if (error == std::errc() && stop == end) return element;
+    read = std::from_chars(words[2].data(), end, element.count);
+    if (read.ptr != end) read.ec = std::errc::invalid_argument;
   }
-  throw InputError(file, line, "'element NAME COUNT' is needed");
+  if (read.ec != std::errc()) throw InputError(file, line, "'element NAME COUNT' is needed");
+  // Vertices of two kinds would not all have what the others have.
+  const bool is_known =
+      std::any_of(header.elements.begin(), header.elements.end(),
+                  [&element](const PlyElement& other) { return other.name == element.name; });
+  if (is_known) throw InputError(file, line, "the element '" + element.name + "' is there twice");
+  header.elements.push_back(std::move(element));
 }
 
 PlyProperty ParseProperty(const fs::path& file, std::size_t line, const Words& words) {
@@ -74,7 +83,7 @@ bool ParseHeaderLine(const fs::path& file, std::size_t line, const Words& words,
     header.binary = ParseFormat(file, line, words);
     has_format = true;
   } else if (words[0] == "element") {
-    header.elements.push_back(ParseElement(file, line, words));
+    AddElement(file, line, words, header);
   } else if (words[0] == "property" && !header.elements.empty()) {
     header.elements.back().properties.push_back(ParseProperty(file, line, words));
   } else {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "chosen_object_check.h"
 #include "dds/dds_choice.h"
 #include "dds/dds_clock.h"
 #include "dds/dds_inputs.h"
@@ -127,22 +128,6 @@ void CheckQueries(FuzzedNumbers& input) {
   Require(turns <= Queries::kMaxRequests * (Queries::kMaxPoints / Queries::kPointsPerTurn + 1));
 }
 
-/// What somebody chooses lies in the image, or is none.
-void CheckStart(const apps::ObjectChoice& choice) {
-  DepthFrame frame;
-  frame.depth.width_px = kWidth_px;
-  frame.depth.height_px = kHeight_px;
-  frame.camera = {20.0F, 20.0F, 8.0F, 6.0F};
-  const auto start = apps::StartIn(frame, choice);
-  if (!start) return;
-  Require(start->seed_u_px >= -1 && start->seed_u_px < kWidth_px);
-  Require(start->seed_v_px >= -1 && start->seed_v_px < kHeight_px);
-  Require(start->roi_x_px >= 0 && start->roi_x_px < kWidth_px && start->roi_width_px <= kWidth_px);
-  Require(start->seed_reach_px >= 0 && start->seed_reach_px <= kWidth_px);
-  if (choice.kind == apps::ObjectChoice::Kind::kMask)
-    Require(choice.mask.size() == std::size_t{kWidth_px} * kHeight_px);
-}
-
 void CheckChoices(FuzzedNumbers& input) {
   apps::DdsAddress address;
   address.camera_frame = "camera";
@@ -151,7 +136,8 @@ void CheckChoices(FuzzedNumbers& input) {
   ros::PointStamped clicked{};
   clicked.header.frame_id = name.data();
   clicked.point = input.Take<ros::Point>();
-  if (const auto choice = ChoiceOf(clicked, address)) CheckStart(*choice);
+  if (const auto choice = ChoiceOf(clicked, address))
+    fuzz::CheckStart(*choice, kWidth_px, kHeight_px);
   ros::ChooseRequest request{};
   request.u = input.Take<std::uint8_t>();
   request.v = input.Take<std::uint8_t>();
@@ -168,7 +154,8 @@ void CheckChoices(FuzzedNumbers& input) {
   std::vector<std::uint8_t> pixels = input.rest();
   posix::Lend(pixels, request.mask.data);
   apps::ObjectChoice choice;
-  if (ReadChoice(request, {kWidth_px, kHeight_px}, choice).empty()) CheckStart(choice);
+  if (ReadChoice(request, {kWidth_px, kHeight_px}, choice).empty())
+    fuzz::CheckStart(choice, kWidth_px, kHeight_px);
 }
 
 }  // namespace

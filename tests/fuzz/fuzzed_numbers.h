@@ -23,11 +23,17 @@ class FuzzedNumbers {
     Skip(size);
     return value;
   }
-  std::string TakeText() {
-    const std::size_t size = std::min<std::size_t>(Take<std::uint8_t>(), rest_.size());
-    std::string text(rest_.begin(), rest_.begin() + static_cast<std::ptrdiff_t>(size));
+  /// Fewer if there are no more.
+  std::vector<std::uint8_t> TakeBytes(std::size_t size) {
+    size = std::min(size, rest_.size());
+    std::vector<std::uint8_t> bytes(rest_.begin(),
+                                    rest_.begin() + static_cast<std::ptrdiff_t>(size));
     Skip(size);
-    return text;
+    return bytes;
+  }
+  std::string TakeText() {
+    const std::vector<std::uint8_t> bytes = TakeBytes(Take<std::uint8_t>());
+    return {bytes.begin(), bytes.end()};
   }
   [[nodiscard]] bool empty() const { return rest_.empty(); }
   std::vector<std::uint8_t>& rest() { return rest_; }

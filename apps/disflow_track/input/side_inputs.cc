@@ -2,6 +2,7 @@
 #include "input/side_inputs.h"
 
 #include <cmath>
+#include <utility>
 
 #include "settings/camera_in_body.h"
 #include "settings/dds_address.h"
@@ -63,21 +64,21 @@ SideInputs::SideInputs(const Options& options, const hal::SensorInfo& sensor) {
 }
 
 void SideInputs::Attach(DepthFrame& frame, Console& console) noexcept {
-  if (masks_) {
-    const Status status = masks_->Attach(frame);
-    // A writer that comes and goes with every frame must not fill the log: each kind is said once.
-    if (status == Status::kMaskSizeMismatch && mask_status_ != status) {
-      console.Say(masks_->name() + ": masks are not as large as the depth images (" +
-                  std::to_string(frame.depth.width_px) + " x " +
-                  std::to_string(frame.depth.height_px) + "); frames go without");
-      mask_status_ = status;
-    } else if (status == Status::kCorrupt && mask_status_ != status) {
-      console.Say(masks_->name() + ": is no mask stream, see docs/masks.md; frames go without");
-      mask_status_ = status;
-    }
-  }
+  if (masks_) TellOfMasks(masks_->Attach(frame), frame.depth, console);
   if (pose_mailbox_) pose_mailbox_->MoveTo(*poses_, frame.stamp_ns);
   if (poses_) frame.has_T_wc = poses_->At(frame.stamp_ns, frame.T_wc) == Status::kOk;
+}
+
+void SideInputs::TellOfMasks(Status status, const DepthView& depth, Console& console) noexcept {
+  // A writer that is wrong now in one way, now in the other must not fill the log: each is said
+  // once.
+  if (status == Status::kMaskSizeMismatch && !std::exchange(said_wrong_size_, true)) {
+    console.Say(masks_->name() + ": masks are not as large as the depth images (" +
+                std::to_string(depth.width_px) + " x " + std::to_string(depth.height_px) +
+                "); frames go without");
+  } else if (status == Status::kCorrupt && !std::exchange(said_corrupt_, true)) {
+    console.Say(masks_->name() + ": is no mask stream, see docs/masks.md; frames go without");
+  }
 }
 
 std::vector<std::string> SideInputs::Summary() const {

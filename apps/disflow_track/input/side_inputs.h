@@ -37,9 +37,12 @@ class SideInputs {
   [[nodiscard]] std::vector<std::string> Summary() const;
 
  private:
+  void TellOfMasks(Status status, const DepthView& depth, Console& console) noexcept;
+
   std::unique_ptr<posix::MaskSource> masks_;  ///< Null: none are wanted.
-  Status mask_status_ = Status::kOk;          ///< What was said last.
-  MaskMailbox* mask_mailbox_ = nullptr;       ///< The same as masks_, if it is one.
+  bool said_wrong_size_ = false;
+  bool said_corrupt_ = false;
+  MaskMailbox* mask_mailbox_ = nullptr;  ///< The same as masks_, if it is one.
   std::optional<hal::CameraPoseHistory> poses_;
   std::optional<PoseMailbox> pose_mailbox_;
 };

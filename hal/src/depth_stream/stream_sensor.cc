@@ -68,8 +68,9 @@ void StreamSensor::Begin(const PacketView& packet) noexcept {
   const std::size_t pixels = std::size_t{start_.width_px} * start_.height_px;
   const bool fits = pixels > 0 && pixels <= image_.size();
   const bool has_unit = start_.unit_m > 0.0F && std::isfinite(start_.unit_m);
-  state_ =
-      readable && fits && has_unit && start_.camera.IsValid() ? State::kReceiving : State::kRefused;
+  const bool has_camera =
+      start_.camera.IsValid() && start_.camera.CanImage(start_.width_px, start_.height_px);
+  state_ = readable && fits && has_unit && has_camera ? State::kReceiving : State::kRefused;
 }
 
 StreamSensor::Outcome StreamSensor::End(std::uint32_t sequence) noexcept {

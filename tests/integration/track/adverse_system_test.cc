@@ -4,17 +4,20 @@
 
 #include <cstdlib>
 #include <ctime>
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "child_process.h"
 #include "disflow/hal/mavlink/frame_decoder.h"
 #include "disflow/hal/mavlink/messages.h"
+#include "disflow/posix/signing_time_file.h"
 #include "endless_run.h"
 #include "estimate_csv.h"
 #include "eventually.h"
 #include "loopback_port.h"
 #include "scratch_folder.h"
+#include "signed_samples.h"
 
 namespace disflow::test {
 namespace {
@@ -98,6 +101,52 @@ TEST_F(ClockThatIsSet, ForwardsAndBack_StampsOfFileAndLinkGoOnAsIfNothingHadHapp
   }
   ASSERT_GT(stamps_us.size(), 20U);
   for (std::size_t i = 1; i < stamps_us.size(); ++i) ASSERT_GT(stamps_us[i], stamps_us[i - 1]);
+}
+
+TEST_F(ClockThatIsSet, ForwardsAndBack_SignedMessagesAreTakenByBothEnds) {
+  if (std::string(DISFLOW_FAKETIME).empty()) GTEST_SKIP() << "needs the package faketime";
+  constexpr std::uint8_t kCarrier = 7;
+  const mavlink::SigningKey key = mavlink::testing::KeyNumber(1);
+  WriteFile(Path("a.key"), {reinterpret_cast<const char*>(key.data()), key.size()});
+  std::filesystem::permissions(Path("a.key"), std::filesystem::perms::owner_read);
+  LoopbackPort peer;
+  const std::uint16_t own = LoopbackPort().number();  // free again now
+  ChildProcess track(DISFLOW_TRACK,
+                     {"--sensor", kEndlessSensor, "--rate", "realtime", "--headless", "--csv",
+                      Path("run.csv"), "--camera-pose", std::to_string(kCarrier), "--link",
+                      "udp://127.0.0.1:" + std::to_string(peer.number()) +
+                          "?bind=" + std::to_string(own) + "&key=" + Path("a.key")},
+                     scratch());
+  mavlink::FrameDecoder decoder;
+  mavlink::SigningSession session(key, posix::SigningTimeNow());
+  mavlink::Odometry pose;
+  pose.q = {1.0F, 0.0F, 0.0F, 0.0F};
+  pose.frame_id = static_cast<std::uint8_t>(mavlink::MavFrame::kLocalFrd);
+  std::size_t poses = 0;
+  for (const char* offset : {"+0", "+1h", "-1d", "+10y", "+0"}) {
+    Set(offset);
+    AwaitMoreLines();
+    mavlink::testing::Bytes buffer(2048);
+    std::size_t accepted = 0;
+    while (const std::size_t size = peer.Receive(buffer, 0))
+      accepted += mavlink::testing::Accepted(decoder, session, std::span(buffer).first(size));
+    EXPECT_GE(accepted, 10U) << offset;
+    pose.time_usec += 1000;
+    const auto message =
+        mavlink::testing::Encoded(pose, {.sequence = 0, .system_id = kCarrier, .component_id = 1});
+    peer.SendTo(own, mavlink::testing::Signed(session, posix::SigningTimeNow(), message));
+    ++poses;
+    AwaitMoreLines();
+  }
+  track.Signal(SIGTERM);
+  const Outcome outcome = track.Wait();
+  EXPECT_EQ(outcome.exit_status, 0) << outcome.err;
+  const hal::mavlink::DecoderCounters& counters = decoder.counters();
+  EXPECT_EQ(counters.wrong_signature + counters.replayed + counters.outdated, 0U);
+  EXPECT_EQ(outcome.err.find("more than a minute old"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("camera poses: " + std::to_string(poses) + " received"),
+            std::string::npos)
+      << outcome.err;
 }
 
 TEST_F(AdverseSystem, StoppedAndContinued_TracksOn) {

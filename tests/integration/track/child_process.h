@@ -28,6 +28,7 @@ class ChildProcess {
   ChildProcess& operator=(const ChildProcess&) = delete;
   ~ChildProcess();
 
+  [[nodiscard]] pid_t pid() const noexcept { return pid_; }
   void Signal(int signal_number) const;
   /// What it has said on standard error so far.
   [[nodiscard]] std::string said() const;

@@ -7,12 +7,22 @@
 #include <sys/socket.h>
 
 #include <array>
+#include <cerrno>
 #include <charconv>
 
 namespace disflow {
 namespace {
 
 constexpr int kPatience_ms = 60'000;
+
+/// A connection whose making a signal has interrupted goes on by itself.
+bool IsMade(int socket) {
+  pollfd ready = {socket, POLLOUT, 0};
+  if (posix::RetryOnSignal([&] { return poll(&ready, 1, kPatience_ms); }) <= 0) return false;
+  int error = 0;
+  socklen_t size = sizeof(error);
+  return getsockopt(socket, SOL_SOCKET, SO_ERROR, &error, &size) == 0 && error == 0;
+}
 
 }  // namespace
 
@@ -21,13 +31,15 @@ RawClient::RawClient(int port) : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CL
   address.sin_family = AF_INET;
   address.sin_port = htons(static_cast<std::uint16_t>(port));
   address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  closed_ =
-      connect(socket_.get(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0;
+  const auto* const generic = reinterpret_cast<const sockaddr*>(&address);
+  if (connect(socket_.get(), generic, sizeof(address)) == 0) return;
+  closed_ = errno != EINTR || !IsMade(socket_.get());
 }
 
 bool RawClient::Send(std::string_view bytes) {
   while (!bytes.empty() && !closed_) {
-    const ssize_t sent = send(socket_.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL);
+    const ssize_t sent = posix::RetryOnSignal(
+        [&] { return send(socket_.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL); });
     if (sent <= 0) return false;
     bytes.remove_prefix(static_cast<std::size_t>(sent));
   }
@@ -38,9 +50,12 @@ void RawClient::EndSending() { (void)shutdown(socket_.get(), SHUT_WR); }
 
 bool RawClient::Receive(std::string& text) {
   pollfd ready = {socket_.get(), POLLIN, 0};
-  if (closed_ || poll(&ready, 1, kPatience_ms) <= 0) return false;
+  if (closed_) return false;
+  // A fuzzer's alarm clock is no end of the connection.
+  if (posix::RetryOnSignal([&] { return poll(&ready, 1, kPatience_ms); }) <= 0) return false;
   std::array<char, 4096> bytes{};
-  const ssize_t size = recv(socket_.get(), bytes.data(), bytes.size(), 0);
+  const ssize_t size =
+      posix::RetryOnSignal([&] { return recv(socket_.get(), bytes.data(), bytes.size(), 0); });
   closed_ = size <= 0;
   if (!closed_) text.append(bytes.data(), static_cast<std::size_t>(size));
   return !closed_;

@@ -137,6 +137,15 @@ TEST_F(PlyFileTest, HeaderFaults_AreNamedWithTheirLine) {
                               "end_header\n1\n"));
 }
 
+TEST_F(PlyFileTest, VerticesOfTwoKinds_AreRefused) {
+  const std::string plain = "property float x\nproperty float y\nproperty float z\n";
+  EXPECT_PRED_FORMAT2(
+      IsSubstring, "m.ply:7: the element 'vertex' is there twice",
+      Refusal("ply\nformat ascii 1.0\nelement vertex 1\n" + plain + "element vertex 1\n" + plain +
+              "property float nx\nproperty float ny\nproperty float nz\nend_header\n"
+              "0 0 0\n1 1 1 0 0 1\n"));
+}
+
 TEST_F(PlyFileTest, MeshWithoutVertices_IsRefused) {
   EXPECT_PRED_FORMAT2(IsSubstring, "holds no vertices",
                       Refusal("ply\nformat ascii 1.0\nend_header\n"));

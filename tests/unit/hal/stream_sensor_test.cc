@@ -194,6 +194,14 @@ TEST_F(StreamSensorTest, TooLargeFrame_IsRefusedAndCounted) {
   EXPECT_EQ(ready.frames_lost, 0U);
 }
 
+TEST_F(StreamSensorTest, FrameOfACameraThatCannotImageIt_IsRefusedAndCounted) {
+  FrameStart start = Start();
+  start.camera.cx_px = 1.7e38F;
+  Send(Packets(7, start));
+  EXPECT_EQ(Next(), Status::kCorrupt);
+  EXPECT_EQ(LastReady().frames_refused, 1U);
+}
+
 TEST_F(StreamSensorTest, FrameWithoutUnitOrIntrinsics_IsRefusedAndCounted) {
   FrameStart no_unit = Start(kWidth, kHeight);
   no_unit.unit_m = 0.0F;

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "disflow/depth/depth_frame.h"
 #include "disflow/hal/little_endian.h"
 #include "disflow/posix/file_descriptor.h"
 #include "disflow/posix/mask_stream.h"
@@ -46,6 +47,16 @@ class MaskWriter {
     }
     ++sequence_;
     Header(stamp_ns, width, height, width + padding);
+  }
+  /// A mask as it was given.
+  void Write(std::int64_t stamp_ns, const MaskView& mask) {
+    const auto width = static_cast<std::uint32_t>(mask.width_px);
+    const auto height = static_cast<std::uint32_t>(mask.height_px);
+    Begin(stamp_ns, width, height);
+    for (std::uint32_t v = 0; v < height; ++v)
+      Put(mask.row(static_cast<int>(v)), width, MaskHeader::kSize + std::size_t{v} * width);
+    ++sequence_;
+    Header(stamp_ns, width, height, width);
   }
   /// A writer that stopped in the middle.
   void Begin(std::int64_t stamp_ns, std::uint32_t width, std::uint32_t height) {

@@ -2,7 +2,9 @@
 #include "web_service.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cstring>
+#include <thread>
 #include <utility>
 
 #include "http_answer.h"
@@ -14,6 +16,9 @@ namespace {
 constexpr std::size_t kReceiveBytes = 64;
 constexpr unsigned kOwnDescriptors = 8;
 constexpr int kDownload_s = 30;
+/// More than the pieces of a request that somebody sends at once.
+constexpr int kIdleTurns = 10;
+constexpr std::chrono::milliseconds kPause{5};
 constexpr int kCommandsPerSecond = 20;
 constexpr lws_usec_t kSecond_us = 1'000'000;
 constexpr std::string_view kMetricsPath = "/metrics";
@@ -89,7 +94,16 @@ hal::Fault WebService::Open() {
   return {};
 }
 
-void WebService::Turn() { (void)lws_service(context_, 0); }
+void WebService::Turn() {
+  (void)lws_service(context_, 0);
+  // A connection that cannot be taken for want of descriptors waits at the door, and libwebsockets
+  // would look at it again and again.
+  if (idle_turns_ < kIdleTurns) {
+    ++idle_turns_;
+  } else {
+    std::this_thread::sleep_for(kPause);
+  }
+}
 
 void WebService::Wake() noexcept { lws_cancel_service(context_); }
 
@@ -101,6 +115,7 @@ int WebService::OnEvent(lws* wsi, lws_callback_reasons reason, void* user, void*
 
 int WebService::Handle(lws* wsi, lws_callback_reasons reason, void* user, void* in,
                        std::size_t size) {
+  idle_turns_ = 0;
   switch (reason) {
     case LWS_CALLBACK_FILTER_NETWORK_CONNECTION:
       return connections_.size() < static_cast<std::size_t>(options_.max_connections) ? 0 : 1;

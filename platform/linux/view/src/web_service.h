@@ -71,6 +71,7 @@ class WebService {
   lws_context* context_ = nullptr;
   int port_ = 0;
   std::atomic<int> viewers_ = 0;
+  int idle_turns_ = 0;  ///< In which nothing happened, one after the other.
   std::unordered_set<lws*> connections_;
   std::vector<std::uint8_t> buffer_;
 };
