@@ -25,4 +25,13 @@ Mat6 CovarianceAtPoint(const Mat6& covariance, const Mat3& rotation,
   return jacobian * covariance * jacobian.transpose();
 }
 
+Mat6 Resolvable(const Mat6& covariance, const Vec6& beside) noexcept {
+  constexpr float kPrecision = 1e-6F;  // 8 times that of a float
+  const Vec6 largest = covariance.diagonal().cwiseMax(beside);
+  Mat6 result = covariance;
+  result.diagonal().head<3>().array() += kPrecision * largest.head<3>().maxCoeff();
+  result.diagonal().tail<3>().array() += kPrecision * largest.tail<3>().maxCoeff();
+  return result;
+}
+
 }  // namespace disflow

@@ -50,17 +50,6 @@ PoseCameraFromObject Displaced(const PoseCameraFromObject& T_co,
       .Normalized();
 }
 
-/// The covariance of a measurement beside a prediction in float: what is known a million times
-/// better than the rest cannot be told from the rest's rounding errors.
-Mat6 Resolvable(const Mat6& measured, const Mat6& predicted) noexcept {
-  constexpr float kPrecision = 1e-6F;  // of a variance, 8 times float's
-  const Vec6 largest = measured.diagonal().cwiseMax(predicted.diagonal());
-  Mat6 result = measured;
-  result.diagonal().head<3>().array() += kPrecision * largest.head<3>().maxCoeff();
-  result.diagonal().tail<3>().array() += kPrecision * largest.tail<3>().maxCoeff();
-  return result;
-}
-
 }  // namespace
 
 void TwistFilter::RestartMotion() noexcept {
@@ -150,7 +139,7 @@ void TwistFilter::Update(const PoseCameraFromObject& T_co, const Mat6& pose_cova
   Vec6 innovation;
   innovation.head<3>() = T_co.translation() - T_co_.translation();
   innovation.tail<3>() = TurnBetween(T_co_.rotation(), T_co.rotation());
-  const Mat6 noise = Resolvable(pose_covariance, covariance_[0][0]);
+  const Mat6 noise = Resolvable(pose_covariance, covariance_[0][0].diagonal());
   const Eigen::LLT<Mat6> cholesky(noise);
   const SymmetricSolver6 solver(covariance_[0][0] + noise);
   // Only for a measurement that is not finite; the prediction stands.

@@ -147,6 +147,28 @@ TEST(DistanceField, SurfaceThatIsLookedThrough_IsForgottenSoonerIfItWasNeverSeen
   EXPECT_LE(frames_until_forgotten(1000), 30);
 }
 
+TEST(DistanceField, SurfaceSeenInPassing_IsUnconfirmedUnlessItWasObservedThreeTimes) {
+  for (const int observations : {1, 2, 3, 4}) {
+    Model model;
+    for (int i = 0; i < observations; ++i) {
+      ++model.frame;
+      (void)model.Insert(kPlace_m);
+    }
+    // Observed once each in many places it is as little confirmed.
+    (void)model.Insert(kPlace_m + Vec3(0.006F, 0.0F, 0.0F));
+    const auto unconfirmed = [&](std::uint32_t frames_later) {
+      int count = 0;
+      model.field->ForEachUnconfirmed(model.frame + frames_later, [&](Handle) { ++count; });
+      return count;
+    };
+    const int expected = observations < 3 ? 1 : 0;
+    EXPECT_EQ(unconfirmed(0), 0) << observations;
+    EXPECT_EQ(unconfirmed(7), 0) << "its turn to be fused may not have come";
+    EXPECT_EQ(unconfirmed(15), expected) << observations;
+    EXPECT_EQ(unconfirmed(1000), expected) << observations;
+  }
+}
+
 TEST(DistanceField, KnownSurfaceMayBeRefined_WhereNoneMayBeAdded) {
   Model model;
   SurfaceSample sample;

@@ -27,7 +27,8 @@ void Tracker<Limits>::RememberView(const DepthFrame& frame) noexcept {
 }
 
 /// Surface that was learnt though it was not the object's, such as a piece of the table under a
-/// loose mask, stays behind when the object moves: then it is looked through.
+/// loose mask, stays behind when the object moves: then it is looked through. What a sensor made up
+/// along an outline is not observed again.
 template <CapacityProfile Limits>
 void Tracker<Limits>::ForgetContradicted(const DepthFrame& frame, const PoseObjectFromCamera& T_oc,
                                          Estimate& estimate) noexcept {
@@ -36,7 +37,14 @@ void Tracker<Limits>::ForgetContradicted(const DepthFrame& frame, const PoseObje
                          [&](Handle handle, bool seen) {
                            if (field_.Witness(handle, seen)) (void)forgotten.push_back(handle);
                          });
-  for (const Handle handle : forgotten) field_.Forget(handle, estimate.rejected);
+  const auto forget = [&] {
+    for (const Handle handle : forgotten) field_.Forget(handle, estimate.rejected);
+    forgotten.clear();
+  };
+  forget();
+  field_.ForEachUnconfirmed(frame_index_,
+                            [&](Handle handle) { (void)forgotten.push_back(handle); });
+  forget();
 }
 
 template <CapacityProfile Limits>

@@ -242,6 +242,7 @@ typename Tracker<Limits>::PoseCovariance Tracker<Limits>::CovarianceOf(
   }
   result.white.diagonal().array() += kDefinedPoseVariance;
   result.reported.diagonal().array() += kDefinedPoseVariance;
+  result.reported = Resolvable(result.reported);
   return result;
 }
 

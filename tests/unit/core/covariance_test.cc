@@ -66,5 +66,25 @@ TEST(CovarianceAtPoint, OfATurn_ShowsAtTheEndOfTheLever) {
   EXPECT_NEAR(moved(0, 0), 0.0F, 1e-9F);
 }
 
+/// Of a rotation of any size about a point far away, beside next to nothing.
+TEST(Resolvable, HasACholeskyFactorWhateverIsUnknown) {
+  const Vec3 axis = Vec3(0.6F, -0.64F, 0.48F);
+  for (const float std_rad : {0.0F, 1e-3F, 0.1F, 1.0F, 3.0F}) {
+    Vec6 turn;
+    turn << kLever_m.cross(axis), axis;
+    const Mat6 covariance = 1e-10F * Mat6::Identity() + std_rad * std_rad * turn * turn.transpose();
+    const Mat6 moved = CovarianceAtPoint(covariance, kRotation, kLever_m);
+    EXPECT_EQ(Resolvable(moved).llt().info(), Eigen::Success) << std_rad;
+    EXPECT_LT((Resolvable(moved) - moved).norm(), 2e-6F * moved.norm()) << std_rad;
+  }
+}
+
+/// What is added up with something larger is rounded as that is.
+TEST(Resolvable, IsRoundedAsWhatItIsAddedTo) {
+  const Vec6 beside = Vec6::Constant(4.0F);
+  EXPECT_GE(Resolvable(Mat6::Zero(), beside).diagonal().minCoeff(), 1e-6F);
+  EXPECT_EQ(Resolvable(Mat6::Zero()), Mat6::Zero());
+}
+
 }  // namespace
 }  // namespace disflow

@@ -173,6 +173,16 @@ TEST_F(FirstFrame, ExactMask_IsTakenAsItIs) {
   ExpectExactly(kObject);
 }
 
+/// As a camera that matches windows of pixels leaves it in patches along an outline.
+TEST_F(FirstFrame, BackgroundInsideAnExactMask_IsNotTheObject) {
+  const PixelBox patch{kObject.u_min, kObject.v_min + 8, kObject.u_min + 6, kObject.v_min + 20};
+  DepthScene scene(2.2F);
+  scene.Rectangle(kObject, kObject_m).Rectangle(patch, 2.2F).Mask(kObject);
+  ASSERT_EQ(Segment(scene), Status::kOk);
+  EXPECT_EQ(Share({patch.u_min, patch.v_min + 2, patch.u_max - 2, patch.v_max - 2}), 0.0);
+  EXPECT_EQ(Share({patch.u_max, kObject.v_min, kObject.u_max, kObject.v_max}), 1.0);
+}
+
 TEST_F(FirstFrame, DilatedMask_LosesTheBackground) {
   DepthScene scene = ObjectOverATable();
   scene.Mask({kObject.u_min - 6, kObject.v_min - 6, kObject.u_max + 6, kObject.v_max + 6});

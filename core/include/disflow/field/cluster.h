@@ -24,6 +24,7 @@ struct Cluster {
   /// Frames that saw it where it should be, less those that looked through it; bounded, see
   /// DistanceField::Witness().
   std::int8_t evidence;
+  bool confirmed;            ///< Some of it was observed again, see ForEachUnconfirmed().
   float dirtiness;           ///< What changed since the last training, in observations.
   std::uint32_t last_frame;  ///< When it was last observed.
   /// How many pieces of surface lie between this one and the first view, each registered to the one
@@ -45,6 +46,7 @@ struct Cluster {
     next = next_in_leaf;
     used = true;
     evidence = 0;
+    confirmed = false;
     dirtiness = 0.0F;
     last_frame = 0;
     generation = 0.0F;

@@ -129,6 +129,21 @@ class DistanceField {
     if (!seen && evidence > -kMostContradictions) --evidence;
     return evidence <= -kMostContradictions;
   }
+  /// Visits the clusters that were observed for the last time some frames ago, and none of whose
+  /// samples ever was three times. Forget() them: along outlines sensors make surface up, in
+  /// another place in every frame.
+  /// @param visit visit(handle)
+  template <class Visit>
+  void ForEachUnconfirmed(std::uint32_t frame, Visit&& visit) noexcept {
+    store_.ForEach([&](Handle handle, const ClusterType& cluster) {
+      if (cluster.confirmed || frame - cluster.last_frame < kUnconfirmedFrames) return;
+      if (cluster.samples.MostObservations() >= kConfirmingObservations) {
+        store_[handle].confirmed = true;
+      } else {
+        visit(handle);
+      }
+    });
+  }
   void Forget(Handle handle, Counters& counters) noexcept;
 
   /// Trains up to `budget` local GPs, those that changed most first. @return How many were trained.
@@ -157,6 +172,10 @@ class DistanceField {
   /// Frames: a fifth of a second at 30 Hz. A pose that is off for a moment contradicts good surface
   /// for a few frames; foreign surface that was learnt is contradicted from then on.
   static constexpr std::int8_t kMostContradictions = 6;
+  /// What stays in view is fused within seven, see Tracker::FuseObservations(), so that what was
+  /// not observed in ten is out of view or was never there.
+  static constexpr std::uint32_t kUnconfirmedFrames = 10;
+  static constexpr int kConfirmingObservations = 3;
   /// So that what was seen for long can still be forgotten, in twice that time.
   static constexpr std::int8_t kMostEvidence = 8;
 

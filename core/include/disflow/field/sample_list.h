@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cstddef>
@@ -50,6 +51,12 @@ class SampleList {
                                       static_cast<float>(position_[2][k]));
   }
   [[nodiscard]] int observations(int i) const noexcept { return rest(i).observations; }
+  /// Of the sample that was observed most often; 0 if there is none.
+  [[nodiscard]] int MostObservations() const noexcept {
+    int most = 0;
+    for (int i = 0; i < size_; ++i) most = std::max(most, observations(i));
+    return most;
+  }
   [[nodiscard]] float variance_m2(int i) const noexcept { return rest(i).variance_m2.value(); }
   [[nodiscard]] Vec3 normal(int i) const noexcept { return rest(i).normal.direction(); }
   [[nodiscard]] ModelSample operator[](int i) const noexcept {

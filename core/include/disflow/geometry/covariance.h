@@ -20,4 +20,9 @@ namespace disflow {
 [[nodiscard]] Mat6 CovarianceAtPoint(const Mat6& covariance, const Mat3& rotation,
                                      const Vec3& to_point_m) noexcept;
 
+/// The covariance as far as float can tell it: variances a million times smaller than the largest
+/// are lost in its rounding, which could make the matrix indefinite. They are raised to that.
+/// @param beside Variances of what it will be added to.
+[[nodiscard]] Mat6 Resolvable(const Mat6& covariance, const Vec6& beside = Vec6::Zero()) noexcept;
+
 }  // namespace disflow
