@@ -92,6 +92,7 @@ class Tracker {
   /// Many things look alike when they are turned about: more than a quarter turn is not believed.
   static constexpr float kFarthestRecognised_rad = 1.9F;
   static constexpr int kInitialBudgetFactor = 12;
+  static constexpr int kFramesUntilObserved = 3;
   static constexpr int kMostForgotten = 64;  ///< Clusters per frame; the rest goes in the next.
   static constexpr float kFade_s = 0.5F;     ///< Time constant of the velocity of an unseen object.
   /// Longer repeats are no hiccup of a driver: the scene stands still, or the camera hangs.
@@ -107,6 +108,7 @@ class Tracker {
     Mat6 reported = Mat6::Zero();  ///< With the drift of the model since its first view.
     /// Of the twist, along what no surface tells.
     Mat6 twist_unobserved = Mat6::Zero();
+    bool complete = true;  ///< The frame tells of all directions.
   };
 
   void Begin(const DepthFrame& frame, Estimate& estimate) noexcept;
@@ -159,6 +161,7 @@ class Tracker {
   Mat6 registered_covariance_ = Mat6::Zero();  ///< Of the last registered pose.
   float gradient_variance_rad2_ = 0.0F;   ///< Of the model's normals, as the last frames saw it.
   Mat6 twist_unobserved_ = Mat6::Zero();  ///< What the surface did not tell of its twist then.
+  int observed_frames_ = 0;  ///< In a row that told of all directions, up to kFramesUntilObserved.
   StampNs observed_ns_ = 0;  ///< When the surface last told the pose in all directions.
 
   typename Segmenter<Limits>::Mask object_mask_;

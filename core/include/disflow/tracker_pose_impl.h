@@ -135,6 +135,7 @@ void Tracker<Limits>::Follow(StampNs stamp_ns, const Aligned& aligned,
   gradient_variance_rad2_ =
       RememberGradientVariance(gradient_variance_rad2_, aligned.information.gradient_variance_rad2);
   twist_unobserved_ = covariance.twist_unobserved;
+  observed_frames_ = covariance.complete ? std::min(observed_frames_ + 1, kFramesUntilObserved) : 0;
   estimate.pose_covariance = covariance.reported;
   estimate.twist_covariance = twist_filter_.twist_covariance() + twist_unobserved_;
 }
@@ -236,13 +237,22 @@ typename Tracker<Limits>::PoseCovariance Tracker<Limits>::CovarianceOf(
                                         LeverOf(information), config_.registration));
   if (!uncertainty.IsComplete()) {
     result.twist_unobserved = in_camera(uncertainty.unobserved);
-    const Mat6 turned = unobserved_s * unobserved_s * result.twist_unobserved;
-    result.reported += turned;
-    result.reported.template topLeftCorner<3, 3>() += OffTangent(turned);
+  } else if (observed_frames_ < kFramesUntilObserved) {
+    // One frame that seems to tell it does not: it stays the object's own axis.
+    result.twist_unobserved =
+        RotatedCovariance(twist_unobserved_, R_co * twist_filter_.T_co().rotation().transpose());
   }
+  result.complete = uncertainty.IsComplete();
+  const Mat6 turned = unobserved_s * unobserved_s * result.twist_unobserved;
+  result.reported += turned;
+  result.reported.template topLeftCorner<3, 3>() += OffTangent(turned);
   result.white.diagonal().array() += kDefinedPoseVariance;
   result.reported.diagonal().array() += kDefinedPoseVariance;
-  result.reported = Resolvable(result.reported);
+  // Rotations make displacements of the origin, with the rounding errors of what they are made of.
+  Vec6 beside = Vec6::Zero();
+  beside.head<3>().setConstant(to_origin_m.squaredNorm() *
+                               result.reported.diagonal().template tail<3>().maxCoeff());
+  result.reported = Resolvable(result.reported, beside);
   return result;
 }
 

@@ -74,8 +74,10 @@ TEST(Resolvable, HasACholeskyFactorWhateverIsUnknown) {
     turn << kLever_m.cross(axis), axis;
     const Mat6 covariance = 1e-10F * Mat6::Identity() + std_rad * std_rad * turn * turn.transpose();
     const Mat6 moved = CovarianceAtPoint(covariance, kRotation, kLever_m);
-    EXPECT_EQ(Resolvable(moved).llt().info(), Eigen::Success) << std_rad;
-    EXPECT_LT((Resolvable(moved) - moved).norm(), 2e-6F * moved.norm()) << std_rad;
+    const Vec6 beside = Vec6::Constant(2.0F * std_rad * std_rad * kLever_m.squaredNorm());
+    const Mat6 resolvable = Resolvable(moved, beside);
+    EXPECT_EQ(resolvable.llt().info(), Eigen::Success) << std_rad;
+    EXPECT_LT((resolvable - moved).norm(), 1e-5F * (moved.norm() + beside.norm())) << std_rad;
   }
 }
 
