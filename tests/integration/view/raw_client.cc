@@ -6,6 +6,7 @@
 #include <poll.h>
 #include <sys/socket.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
@@ -63,7 +64,12 @@ bool RawClient::Receive(std::string& text) {
 
 std::string RawClient::ReadUntil(std::string_view end) {
   std::string text;
-  while (text.find(end) == std::string::npos && Receive(text)) {
+  // Not from the beginning each time: of many megabytes that takes longer than a viewer may be
+  // silent.
+  std::size_t from = 0;
+  while (text.find(end, from) == std::string::npos) {
+    from = text.size() - std::min(text.size(), end.size());
+    if (!Receive(text)) break;
   }
   return text;
 }
