@@ -183,6 +183,17 @@ TEST_F(FirstFrame, BackgroundInsideAnExactMask_IsNotTheObject) {
   EXPECT_EQ(Share({patch.u_max, kObject.v_min, kObject.u_max, kObject.v_max}), 1.0);
 }
 
+/// From pixel to pixel its depth changes by 3 %: at 79 degrees, as it is still sampled.
+TEST_F(FirstFrame, FaceSeenAtAGrazingAngleInACoarseImage_IsOneSurface) {
+  const PixelBox face{70, 30, 86, 90};
+  DepthScene scene(2.2F);
+  scene.Draw(
+      face, [&](int u, int) { return 0.7F * std::pow(1.03F, static_cast<float>(u - face.u_min)); });
+  scene.Mask(face);
+  ASSERT_EQ(Segment(scene), Status::kOk);
+  ExpectExactly(face);
+}
+
 TEST_F(FirstFrame, DilatedMask_LosesTheBackground) {
   DepthScene scene = ObjectOverATable();
   scene.Mask({kObject.u_min - 6, kObject.v_min - 6, kObject.u_max + 6, kObject.v_max + 6});

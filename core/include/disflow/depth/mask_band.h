@@ -48,6 +48,10 @@ void Dilate(const Mask& source, int radius_px, Mask& out) noexcept {
   out.Finish();
 }
 
+/// In metres along the ray per metre across it: that of the flattest surface that is sampled
+/// (sampler.min_cos_incidence).
+inline constexpr float kMostSlope = 8.0F;
+
 /// Where the object's surfaces go on beyond the tolerance of a given mask.
 template <class Mask>
 struct MaskOverrun {
@@ -78,11 +82,6 @@ struct MaskOverrun {
     }
     return false;
   }
-
- private:
-  /// In metres along the ray per metre across it: that of the flattest surface that is sampled
-  /// (sampler.min_cos_incidence).
-  static constexpr float kMostSlope = 8.0F;
 };
 
 /// A given mask is a promise with a tolerance. Inside of it the depth image and the model may

@@ -96,6 +96,13 @@ class Segmenter {
     for (int v = box.v_min; v < box.v_max; ++v) object.row(v).SetRun(box.u_min, box.u_max);
   }
 
+  /// Neighbouring pixels whose depths differ by a larger share belong to different surfaces. Coarse
+  /// images of steep surface have larger steps than fine ones.
+  [[nodiscard]] static float DepthJumpRatio(const SegmenterConfig& config,
+                                            const PinholeCamera& camera) noexcept {
+    return std::max(config.depth_jump_ratio, kMostSlope / camera.fx_px);
+  }
+
   /// How surfaces are looked for.
   struct Manner {
     float margins = 1.0F;  ///< So many margins about the predicted model.
@@ -121,7 +128,7 @@ class Segmenter {
   void BuildFirstSurfaces(const DepthFrame& frame, const SegmenterConfig& config,
                           const DepthReader& depth) noexcept;
   template <class Gate>
-  void Connect(const DepthReader& depth, const SegmenterConfig& config, int fewest_pixels,
+  void Connect(const DepthReader& depth, float depth_jump_ratio, int fewest_pixels,
                const Gate& gate) noexcept;
 
   [[nodiscard]] ModelGate GateOf(const DepthFrame& frame, const SegmenterConfig& config,
