@@ -36,7 +36,7 @@ constexpr void VisitFields(ConfigType& config, Visitor&& visitor) {
   field("segmenter.max_range_m", seg.max_range_m, 0.01, 100.0, "m", "farthest depth that is used");
   field("segmenter.depth_jump_ratio", seg.depth_jump_ratio, 1e-4, 1.0, "m/m",
         "neighbouring pixels whose depths differ by more than this share of the depth belong to "
-        "different surfaces; in coarse images more, as steep surface has it");
+        "different surfaces; under a mask in coarse images more, as steep surface has it");
   field("segmenter.model_margin_m", seg.model_margin_m, 0.0, 1.0, "m",
         "without a mask, pixels farther than this from the predicted model are not the object");
   field("segmenter.explained_m", seg.explained_m, 1e-4, 1.0, "m",

@@ -237,8 +237,9 @@ typename Tracker<Limits>::PoseCovariance Tracker<Limits>::CovarianceOf(
                                         LeverOf(information), config_.registration));
   if (!uncertainty.IsComplete()) {
     result.twist_unobserved = in_camera(uncertainty.unobserved);
-  } else if (observed_frames_ < kFramesUntilObserved) {
-    // One frame that seems to tell it does not: it stays the object's own axis.
+  } else if (observed_frames_ < kFramesUntilObserved && !monitor_.Doubts(frame.stamp_ns)) {
+    // One frame that seems to tell it does not: it stays the object's own axis. Of an object that
+    // was lost nothing of the frames before counts.
     result.twist_unobserved =
         RotatedCovariance(twist_unobserved_, R_co * twist_filter_.T_co().rotation().transpose());
   }

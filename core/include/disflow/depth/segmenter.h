@@ -97,10 +97,12 @@ class Segmenter {
   }
 
   /// Neighbouring pixels whose depths differ by a larger share belong to different surfaces. Coarse
-  /// images of steep surface have larger steps than fine ones.
+  /// images of steep surface have larger steps than fine ones; but without a mask what lies close
+  /// behind the object would be joined with it.
   [[nodiscard]] static float DepthJumpRatio(const SegmenterConfig& config,
-                                            const PinholeCamera& camera) noexcept {
-    return std::max(config.depth_jump_ratio, kMostSlope / camera.fx_px);
+                                            const DepthFrame& frame) noexcept {
+    const float steepest = frame.mask.given() ? kMostSlope / frame.camera.fx_px : 0.0F;
+    return std::max(config.depth_jump_ratio, steepest);
   }
 
   /// How surfaces are looked for.

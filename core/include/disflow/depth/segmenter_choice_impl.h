@@ -71,7 +71,7 @@ void Segmenter<Limits>::FindEnds(const DepthFrame& frame, const SegmenterConfig&
                                  const ModelPrior& prior) noexcept {
   const DepthReader depth(frame.depth, config.min_range_m, config.max_range_m);
   const ModelGate gate = GateOf(frame, config, prior);
-  const float jump_ratio = DepthJumpRatio(config, frame.camera);
+  const float jump_ratio = DepthJumpRatio(config, frame);
   const auto goes_on = [&](int u, int u_beyond, int v) {
     const float here_m = depth.At(u, v);
     float beyond_m = depth.AtOrZero(u_beyond, v);

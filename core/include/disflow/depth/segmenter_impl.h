@@ -24,7 +24,7 @@ void Segmenter<Limits>::BuildSurfaces(const DepthFrame& frame, const SegmenterCo
     BuildFirstSurfaces(frame, config, depth);
   } else if (!prior.known) {
     box_ = band_.BoxThatMatters(mask);
-    Connect(depth, DepthJumpRatio(config, frame.camera), kMinPixels, [](int, int, int, float*) {});
+    Connect(depth, DepthJumpRatio(config, frame), kMinPixels, [](int, int, int, float*) {});
   } else {
     const ModelGate gate = GateOf(frame, config, prior);
     box_ = gate.SearchBox(config.min_range_m, {0, 0, frame.depth.width_px, frame.depth.height_px});
@@ -38,7 +38,7 @@ void Segmenter<Limits>::BuildSurfaces(const DepthFrame& frame, const SegmenterCo
     }
     if (manner_.cut)
       valleys_.Start(depth, frame.camera, box_, prior.T_oc.Inverse().translation().z());
-    Connect(depth, DepthJumpRatio(config, frame.camera), kMinPixels, gate);
+    Connect(depth, DepthJumpRatio(config, frame), kMinPixels, gate);
   }
 }
 
@@ -54,8 +54,7 @@ void Segmenter<Limits>::BuildFirstSurfaces(const DepthFrame& frame, const Segmen
   planes_.Find(depth, Surroundings(box_, frame), [](int, int, float) { return true; });
   const auto connect = [&] {
     const int fewest_pixels = std::max(64, box_.width() * box_.height() / 2000);
-    Connect(depth, DepthJumpRatio(config, frame.camera), fewest_pixels,
-            [](int, int, int, float*) {});
+    Connect(depth, DepthJumpRatio(config, frame), fewest_pixels, [](int, int, int, float*) {});
   };
   connect();
   if (surfaces_.components() > 0) return;
