@@ -163,7 +163,7 @@ TEST(DistanceField, SurfaceSeenInPassing_IsUnconfirmedUnlessItWasObservedThreeTi
     };
     const int expected = observations < 3 ? 1 : 0;
     EXPECT_EQ(unconfirmed(0), 0) << observations;
-    EXPECT_EQ(unconfirmed(7), 0) << "its turn to be fused may not have come";
+    EXPECT_EQ(unconfirmed(7), 0) << "it may be looked at again";
     EXPECT_EQ(unconfirmed(15), expected) << observations;
     EXPECT_EQ(unconfirmed(1000), expected) << observations;
   }

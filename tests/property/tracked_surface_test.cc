@@ -132,9 +132,8 @@ class TrackedSurface : public ::testing::Test {
       if (nearest_m > kWithin_m) ++inside;
     }
     // Of the whole mesh, for a mesh that is less open has less border: rounding differs by machine,
-    // and a place of a cluster's size, which has about forty vertices around it, may be missing
-    // where one was forgotten (docs/results.md).
-    EXPECT_LE(800 * inside, static_cast<int>(vertices_m.size()))
+    // and a place of a cluster's size may be missing where one was forgotten (docs/results.md).
+    EXPECT_LE(1000 * inside, static_cast<int>(vertices_m.size()))
         << inside << " of a border of " << border.size();
   }
 

@@ -75,18 +75,17 @@ class MaskLoss : public ScratchFolderTest {
       return frame >= wanted;
     })) << track_->said();
   }
-  Outcome Stop() {
-    track_->Signal(SIGTERM);
-    return track_->Wait();
-  }
   /// What the report says of the masks.
   [[nodiscard]] static int Count(const Outcome& outcome, const std::string& what) {
     const std::size_t end = outcome.err.find(" " + what, outcome.err.find("masks from"));
     if (end == std::string::npos) return -1;
     return std::atoi(outcome.err.c_str() + outcome.err.rfind(' ', end - 1));
   }
-  /// The object is the one of the first frame, and where it should be.
-  void ExpectTrackedToTheEnd() const {
+  /// Expects that the object is the one of the first frame, and where it should be.
+  Outcome StopAndExpectTrackedToTheEnd() {
+    track_->Signal(SIGTERM);
+    Outcome outcome = track_->Wait();
+    EXPECT_EQ(outcome.exit_status, 0) << outcome.err;
     const auto rows = apps::LoadEstimates(Path("run.csv"), kFrames).rows;
     const auto tie = [this](const apps::EstimateRow& row) {
       return row.T_co.Inverse() * apps::EstimatedPose(simulation_.TruthAt(row.frame).object.pose);
@@ -97,6 +96,7 @@ class MaskLoss : public ScratchFolderTest {
       EXPECT_LT(off.head<3>().norm(), 0.02) << "row " << i;
       EXPECT_LT(off.tail<3>().norm(), 0.15) << "row " << i;
     }
+    return outcome;
   }
 
   host::Simulation simulation_{Options(), host::MakeObjectMesh(host::ObjectKind::kBox)};
@@ -108,19 +108,15 @@ class MaskLoss : public ScratchFolderTest {
 TEST_F(MaskLoss, StreamThatStandsStill_IsLeftAsideUntilItGoesOn) {
   AwaitFrames(3 * kMaskAge_frames);
   Follow(20);
-  const Outcome outcome = Stop();
-  EXPECT_EQ(outcome.exit_status, 0) << outcome.err;
+  const Outcome outcome = StopAndExpectTrackedToTheEnd();
   EXPECT_GT(Count(outcome, "late"), kMaskAge_frames);
-  ExpectTrackedToTheEnd();
 }
 
 TEST_F(MaskLoss, StampsThatGoOnUnderAMaskThatDoesNot_CostNoObject) {
   RepeatLast(30);
   Follow(30);
-  const Outcome outcome = Stop();
-  EXPECT_EQ(outcome.exit_status, 0) << outcome.err;
+  const Outcome outcome = StopAndExpectTrackedToTheEnd();
   EXPECT_NE(outcome.err.find(" 0 restarts"), std::string::npos) << outcome.err;
-  ExpectTrackedToTheEnd();
 }
 
 TEST_F(MaskLoss, StreamThatVanishes_IsFoundAgainWhenItComesBack) {
@@ -130,11 +126,9 @@ TEST_F(MaskLoss, StreamThatVanishes_IsFoundAgainWhenItComesBack) {
     writer_->Create();
     Follow(10);
   }
-  const Outcome outcome = Stop();
-  EXPECT_EQ(outcome.exit_status, 0) << outcome.err;
+  const Outcome outcome = StopAndExpectTrackedToTheEnd();
   EXPECT_GE(Count(outcome, "missing"), 20);
   EXPECT_GE(Count(outcome, "used"), 20);
-  ExpectTrackedToTheEnd();
 }
 
 TEST_F(MaskLoss, WriterThatIsWrongInEveryWay_IsNamedOnceAndCostsNoFrame) {
@@ -152,8 +146,7 @@ TEST_F(MaskLoss, WriterThatIsWrongInEveryWay_IsNamedOnceAndCostsNoFrame) {
     writer_->Create();
     Follow(10);
   }
-  const Outcome outcome = Stop();
-  EXPECT_EQ(outcome.exit_status, 0) << outcome.err;
+  const Outcome outcome = StopAndExpectTrackedToTheEnd();
   EXPECT_GE(Count(outcome, "of another size"), 5);
   EXPECT_GE(Count(outcome, "corrupt"), 5);
   for (const char* words : {"masks are not as large", "is no mask stream"}) {
@@ -161,7 +154,6 @@ TEST_F(MaskLoss, WriterThatIsWrongInEveryWay_IsNamedOnceAndCostsNoFrame) {
     ASSERT_NE(first, std::string::npos) << outcome.err;
     EXPECT_EQ(outcome.err.find(words, first + 1), std::string::npos) << outcome.err;
   }
-  ExpectTrackedToTheEnd();
 }
 
 }  // namespace

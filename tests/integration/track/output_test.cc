@@ -15,9 +15,9 @@
 #include "child_process.h"
 #include "endless_run.h"
 #include "estimate_csv.h"
-#include "file_size_limit.h"
 #include "model_file.h"
 #include "ply_file.h"
+#include "resource_limit.h"
 #include "scratch_folder.h"
 
 namespace disflow::test {
@@ -146,7 +146,7 @@ TEST_F(PipeTest, ReaderThatGoesAway_IsSaidAndTheOtherOutputsAreComplete) {
 TEST_F(OutputTest, DiskFullWhileRunning_KeepsWholeRowsAndSaysSo) {
   Outcome outcome;
   {
-    const FileSizeLimit limit(10000);
+    const ResourceLimit limit(RLIMIT_FSIZE, 10000);
     outcome = RunTrack({"--sensor", "sim:bottle?frames=40", "--csv", Path("run.csv")}, scratch());
   }
   EXPECT_EQ(outcome.exit_status, 4) << outcome.err;
@@ -163,7 +163,7 @@ TEST_F(OutputTest, DiskFullForTheMesh_KeepsTheEarlierMesh) {
   WriteFile(Path("run.ply"), "earlier\n");
   Outcome outcome;
   {
-    const FileSizeLimit limit(10000);
+    const ResourceLimit limit(RLIMIT_FSIZE, 10000);
     outcome = RunTrack({"--sensor", "sim:bottle?frames=5", "--mesh", Path("run.ply")}, scratch());
   }
   EXPECT_EQ(outcome.exit_status, 4) << outcome.err;

@@ -10,7 +10,7 @@
 #include "child_process.h"
 #include "endless_run.h"
 #include "eventually.h"
-#include "file_size_limit.h"
+#include "resource_limit.h"
 #include "scratch_folder.h"
 
 namespace disflow::test {
@@ -129,7 +129,7 @@ TEST_F(RotationTest, LiveRun_LosesNoRowAtTheRotation) {
 
 TEST_F(RotationTest, FileThatCannotGrow_EndsAndTheNextOneTakesWhatFollows) {
   // As on a disk that is full and has room again: no file may be larger than 15 KB.
-  const FileSizeLimit limit(15'000);
+  const ResourceLimit limit(RLIMIT_FSIZE, 15'000);
   const Outcome outcome = RunTrack(
       {"--sensor", kSensor, "--csv", Path("run-{n}.csv"), "--rotate-size", "1"}, scratch());
   EXPECT_EQ(outcome.exit_status, 4) << outcome.err;

@@ -9,7 +9,7 @@
 #include "child_process.h"
 #include "endless_run.h"
 #include "estimate_csv.h"
-#include "file_size_limit.h"
+#include "resource_limit.h"
 #include "scratch_folder.h"
 
 namespace disflow::test {
@@ -59,7 +59,7 @@ TEST_F(SuddenEnd, Killed_MessagesThatWereRecordedPlay) {
 TEST_F(SuddenEnd, FileOfMessagesThatMayNotGrowFurther_KeepsItsWholeFrames) {
   Outcome outcome;
   {
-    const FileSizeLimit limit(3'000'000);  // of images of 900 KB
+    const ResourceLimit limit(RLIMIT_FSIZE, 3'000'000);  // of images of 900 KB
     outcome = RunTrack(
         {"--sensor", "sim:bottle?frames=6", "--record", Path("run.mcap"), "--headless"}, scratch());
   }
@@ -91,7 +91,7 @@ TEST_F(SuddenEnd, RecordingThatWasCutShort_IsReplayedWithAWord) {
 TEST_F(SuddenEnd, FileThatMayNotGrowFurther_EndsTheRecordingAndNotTheRun) {
   Outcome outcome;
   {
-    const FileSizeLimit limit(10000);  // less than an image
+    const ResourceLimit limit(RLIMIT_FSIZE, 10000);  // less than an image
     outcome =
         RunTrack({"--sensor", "sim:bottle?frames=10", "--record", Path("recorded")}, scratch());
   }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The live view's server in a process that falls short of descriptors.
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <array>
@@ -13,6 +12,7 @@
 
 #include "disflow/posix/view/web_server.h"
 #include "raw_client.h"
+#include "resource_limit.h"
 
 namespace disflow {
 namespace {
@@ -20,34 +20,21 @@ namespace {
 constexpr std::array<std::uint8_t, 4> kContent = {'p', 'a', 'g', 'e'};
 constexpr std::array kPage = {posix::WebAsset{"/", "text/html; charset=utf-8", kContent}};
 
-/// Lets this process open no further files.
-class NoMoreFiles {
- public:
-  /// @param left So many more may be opened.
-  explicit NoMoreFiles(int left) {
-    (void)::getrlimit(RLIMIT_NOFILE, &before_);
-    rlimit limit = before_;
-    // Descriptors are the lowest numbers that are free.
-    std::vector<int> free;
-    for (int i = 0; i <= left; ++i) free.push_back(::dup(STDERR_FILENO));
-    limit.rlim_cur = static_cast<rlim_t>(free.back());
-    for (const int descriptor : free) ::close(descriptor);
-    (void)::setrlimit(RLIMIT_NOFILE, &limit);
-  }
-  NoMoreFiles(const NoMoreFiles&) = delete;
-  NoMoreFiles& operator=(const NoMoreFiles&) = delete;
-  ~NoMoreFiles() { (void)::setrlimit(RLIMIT_NOFILE, &before_); }
-
- private:
-  rlimit before_{};
-};
+/// Above the highest descriptor when so many more are open: they are the lowest numbers that are
+/// free.
+rlim_t DescriptorsAnd(int more) {
+  std::vector<int> free;
+  for (int i = 0; i <= more; ++i) free.push_back(::dup(STDERR_FILENO));
+  for (const int descriptor : free) ::close(descriptor);
+  return static_cast<rlim_t>(free.back());
+}
 
 TEST(WebServerLimits, DescriptorsThatRunOut_LeaveTheServerAtRestAndServingAfterwards) {
   const posix::MessageBoard board(2, 4);
   posix::WebServer server({}, kPage, board, [](auto) {});
   const hal::Fault fault = server.Start();
   ASSERT_TRUE(fault.ok()) << fault.message;
-  std::optional<NoMoreFiles> limit(1);
+  std::optional<test::ResourceLimit> limit(std::in_place, RLIMIT_NOFILE, DescriptorsAnd(1));
   RawClient client(server.port());
   client.Send("GET / HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(server.port()) + "\r\n\r\n");
   const std::clock_t before = std::clock();

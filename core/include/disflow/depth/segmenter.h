@@ -96,15 +96,6 @@ class Segmenter {
     for (int v = box.v_min; v < box.v_max; ++v) object.row(v).SetRun(box.u_min, box.u_max);
   }
 
-  /// Neighbouring pixels whose depths differ by a larger share belong to different surfaces. Coarse
-  /// images of steep surface have larger steps than fine ones; but without a mask what lies close
-  /// behind the object would be joined with it.
-  [[nodiscard]] static float DepthJumpRatio(const SegmenterConfig& config,
-                                            const DepthFrame& frame) noexcept {
-    const float steepest = frame.mask.given() ? kMostSlope / frame.camera.fx_px : 0.0F;
-    return std::max(config.depth_jump_ratio, steepest);
-  }
-
   /// How surfaces are looked for.
   struct Manner {
     float margins = 1.0F;  ///< So many margins about the predicted model.
@@ -130,8 +121,8 @@ class Segmenter {
   void BuildFirstSurfaces(const DepthFrame& frame, const SegmenterConfig& config,
                           const DepthReader& depth) noexcept;
   template <class Gate>
-  void Connect(const DepthReader& depth, float depth_jump_ratio, int fewest_pixels,
-               const Gate& gate) noexcept;
+  void Connect(const DepthFrame& frame, const SegmenterConfig& config, const DepthReader& depth,
+               int fewest_pixels, const Gate& gate) noexcept;
 
   [[nodiscard]] ModelGate GateOf(const DepthFrame& frame, const SegmenterConfig& config,
                                  const ModelPrior& prior) const noexcept;

@@ -71,13 +71,13 @@ void Segmenter<Limits>::FindEnds(const DepthFrame& frame, const SegmenterConfig&
                                  const ModelPrior& prior) noexcept {
   const DepthReader depth(frame.depth, config.min_range_m, config.max_range_m);
   const ModelGate gate = GateOf(frame, config, prior);
-  const float jump_ratio = DepthJumpRatio(config, frame);
   const auto goes_on = [&](int u, int u_beyond, int v) {
     const float here_m = depth.At(u, v);
     float beyond_m = depth.AtOrZero(u_beyond, v);
     const bool outside = u_beyond < box_.u_min || u_beyond >= box_.u_max;
     if (beyond_m <= 0.0F) return !prior.known && outside;
-    if (std::abs(beyond_m - here_m) > jump_ratio * std::min(here_m, beyond_m)) return false;
+    if (std::abs(beyond_m - here_m) > config.depth_jump_ratio * std::min(here_m, beyond_m))
+      return false;
     planes_(v, u_beyond, u_beyond + 1, &beyond_m);
     if (beyond_m <= 0.0F) return false;
     if (!prior.known) return outside;

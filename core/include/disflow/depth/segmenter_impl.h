@@ -24,7 +24,7 @@ void Segmenter<Limits>::BuildSurfaces(const DepthFrame& frame, const SegmenterCo
     BuildFirstSurfaces(frame, config, depth);
   } else if (!prior.known) {
     box_ = band_.BoxThatMatters(mask);
-    Connect(depth, DepthJumpRatio(config, frame), kMinPixels, [](int, int, int, float*) {});
+    Connect(frame, config, depth, kMinPixels, [](int, int, int, float*) {});
   } else {
     const ModelGate gate = GateOf(frame, config, prior);
     box_ = gate.SearchBox(config.min_range_m, {0, 0, frame.depth.width_px, frame.depth.height_px});
@@ -38,7 +38,7 @@ void Segmenter<Limits>::BuildSurfaces(const DepthFrame& frame, const SegmenterCo
     }
     if (manner_.cut)
       valleys_.Start(depth, frame.camera, box_, prior.T_oc.Inverse().translation().z());
-    Connect(depth, DepthJumpRatio(config, frame), kMinPixels, gate);
+    Connect(frame, config, depth, kMinPixels, gate);
   }
 }
 
@@ -54,7 +54,7 @@ void Segmenter<Limits>::BuildFirstSurfaces(const DepthFrame& frame, const Segmen
   planes_.Find(depth, Surroundings(box_, frame), [](int, int, float) { return true; });
   const auto connect = [&] {
     const int fewest_pixels = std::max(64, box_.width() * box_.height() / 2000);
-    Connect(depth, DepthJumpRatio(config, frame), fewest_pixels, [](int, int, int, float*) {});
+    Connect(frame, config, depth, fewest_pixels, [](int, int, int, float*) {});
   };
   connect();
   if (surfaces_.components() > 0) return;
@@ -62,13 +62,17 @@ void Segmenter<Limits>::BuildFirstSurfaces(const DepthFrame& frame, const Segmen
   connect();
 }
 
-/// Connects the pixels of the box that a gate, planes and valleys leave.
+/// Connects the pixels of the box that a gate, planes and valleys leave. Coarse images of steep
+/// surface have larger steps in depth than fine ones; but without a mask what lies close behind the
+/// object would be joined with it.
 template <class Limits>
 template <class Gate>
-void Segmenter<Limits>::Connect(const DepthReader& depth, float depth_jump_ratio, int fewest_pixels,
+void Segmenter<Limits>::Connect(const DepthFrame& frame, const SegmenterConfig& config,
+                                const DepthReader& depth, int fewest_pixels,
                                 const Gate& gate) noexcept {
+  const float steepest = frame.mask.given() ? kMostSlope / frame.camera.fx_px : 0.0F;
   surfaces_.Build(
-      depth, box_, depth_jump_ratio, fewest_pixels,
+      depth, box_, std::max(config.depth_jump_ratio, steepest), fewest_pixels,
       [&](int v, int u_begin, int u_end, float* depth_m) {
         gate(v, u_begin, u_end, depth_m);
         planes_(v, u_begin, u_end, depth_m);

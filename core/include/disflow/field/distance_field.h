@@ -172,8 +172,8 @@ class DistanceField {
   /// Frames: a fifth of a second at 30 Hz. A pose that is off for a moment contradicts good surface
   /// for a few frames; foreign surface that was learnt is contradicted from then on.
   static constexpr std::int8_t kMostContradictions = 6;
-  /// What stays in view is fused within seven, see Tracker::FuseObservations(), so that what was
-  /// not observed in ten is out of view or was never there.
+  /// A third of a second at 30 Hz, of those tried the one that leaves least behind
+  /// (docs/experiments.md, crumbs along outlines).
   static constexpr std::uint32_t kUnconfirmedFrames = 10;
   static constexpr int kConfirmingObservations = 3;
   /// So that what was seen for long can still be forgotten, in twice that time.

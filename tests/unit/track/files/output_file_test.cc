@@ -11,8 +11,8 @@
 #include <filesystem>
 #include <thread>
 
-#include "file_size_limit.h"
 #include "program/exit_status.h"
+#include "resource_limit.h"
 #include "scratch_folder.h"
 
 namespace disflow::apps {
@@ -69,7 +69,7 @@ TEST_F(OutputFileTest, AtomicFileThatFindsNoRoom_LeavesTheEarlierOneAndNoPart) {
   test::WriteFile(Path("mesh"), "earlier");
   AtomicFile file(Path("mesh"));
   {
-    const test::FileSizeLimit limit(1000);
+    const test::ResourceLimit limit(RLIMIT_FSIZE, 1000);
     EXPECT_THROW(file.Commit(std::string(2000, 'x')), Failure);
   }
   EXPECT_EQ(test::ReadFile(Path("mesh")), "earlier");
