@@ -51,13 +51,15 @@ template <CapacityProfile Limits>
 void Tracker<Limits>::FuseObservations(const DepthFrame& frame, Estimate& estimate) noexcept {
   const bool first = frame_index_ == 0;
   const int wanted = first ? samples_.size() : std::min(samples_.size(), config_.field.fuse_budget);
-  // The subset moves from frame to frame, so that every part of the image gets its turn.
-  const int offset = static_cast<int>(frame_index_ % 7U);
+  // The subset moves from frame to frame by the golden ratio of its spacing, so that every sample
+  // of an image that does not change gets its turn.
+  constexpr std::uint32_t kGoldenRatio = 40503;  // of 2^16
+  const std::int64_t phase = (frame_index_ * kGoldenRatio) & 0xFFFFU;
   const Mat3& R_oc = T_oc_.rotation();
   const DepthReader depth = UsableDepth(frame);
   for (int i = 0; i < wanted; ++i) {
-    const auto index = (static_cast<std::int64_t>(i) * samples_.size() + offset) / wanted;
-    SurfaceSample observation = samples_[std::min(static_cast<int>(index), samples_.size() - 1)];
+    const std::int64_t index = ((std::int64_t{i} << 16) + phase) * samples_.size() / wanted >> 16;
+    SurfaceSample observation = samples_[static_cast<int>(index)];
     const PixelAt px(frame.camera.Project(observation.position_m));
     const bool undecided =
         contact_.merged || overrun_.IsReachedFrom(px.u, px.v, depth, frame.camera);
