@@ -5,6 +5,7 @@
 #include "disflow/depth/depth_frame.h"
 #include "disflow/depth/depth_reader.h"
 #include "disflow/depth/image_repeats.h"
+#include "disflow/depth/outline_scale.h"
 #include "disflow/depth/seen_space.h"
 #include "disflow/depth/segmenter.h"
 #include "disflow/depth/surface_sampler.h"
@@ -170,6 +171,8 @@ class Tracker {
   StageScratch<Segmenter<Limits>, SurfaceSampler<Limits>, Registration<Limits>> scratch_;
   typename SurfaceSampler<Limits>::Samples samples_;
   typename Registration<Limits>::Edges edges_;
+  OutlineSource outline_source_ = OutlineSource::kDepth;  ///< Whose outline they are on.
+  OutlineScale outline_scale_;
   Field field_;
   EdgeMap<Limits::kMaxModelEdges> model_edges_;
   SeenSpace<Limits::kMaxSeenViews, Limits::kSeenCells> seen_;

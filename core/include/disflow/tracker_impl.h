@@ -27,6 +27,7 @@ Tracker<Limits>::Tracker(const Config& config) noexcept
     : config_(config), config_issue_(Validate(config)) {
   field_.Start(config_.field);
   model_edges_.Start();
+  outline_scale_ = {};
   seen_.Start();
 }
 
@@ -100,6 +101,7 @@ void Tracker<Limits>::Reset() noexcept {
   frame_index_ = 0;
   field_.Start(config_.field);
   model_edges_.Start();
+  outline_scale_ = {};
   seen_.Start();
 }
 
@@ -201,8 +203,8 @@ Status Tracker<Limits>::Observe(const DepthFrame& frame, Estimate& estimate,
   const DepthReader depth = UsableDepth(frame);
   auto& sampler = scratch_.template Begin<SurfaceSampler<Limits>>();
   sampler.Sample(depth, frame.camera, interior, config_.sampler, samples_, estimate.rejected);
-  EdgeSampler<Limits>::Sample(depth, frame.camera, object_mask_, frame.mask, sampler,
-                              config_.sampler, config_.registration.edge_std_px, edges_);
+  outline_source_ = EdgeSampler<Limits>::Sample(depth, frame.camera, object_mask_, frame.mask, sampler,
+                              config_.sampler, config_.registration.edge_std_px, outline_scale_, edges_);
   estimate.samples = static_cast<std::uint16_t>(samples_.size());
   estimate.inverse_depth_std_per_m = sampler.noise_std();
   stopwatch.Mark(Stage::kSample);

@@ -130,6 +130,7 @@ void Tracker<Limits>::Follow(StampNs stamp_ns, const Aligned& aligned,
   }
   estimate.weak = FindWeakDirection(covariance.reported, config_.monitor);
   model_edges_.SetRounding(Remember(model_edges_.rounding(), aligned.rounding));
+  outline_scale_.Learn(outline_source_, aligned.edge_spread);
   field_.SetGeneration(aligned.generation + 1.0F);
   registered_covariance_ = covariance.reported;
   gradient_variance_rad2_ =
@@ -244,9 +245,11 @@ typename Tracker<Limits>::PoseCovariance Tracker<Limits>::CovarianceOf(
         RotatedCovariance(twist_unobserved_, R_co * twist_filter_.T_co().rotation().transpose());
   }
   result.complete = uncertainty.IsComplete();
-  const Mat6 turned = unobserved_s * unobserved_s * result.twist_unobserved;
-  result.reported += turned;
-  result.reported.template topLeftCorner<3, 3>() += OffTangent(turned);
+  if (!result.twist_unobserved.isZero(0.0F)) {
+    const Mat6 turned = unobserved_s * unobserved_s * result.twist_unobserved;
+    result.reported += turned;
+    result.reported.template topLeftCorner<3, 3>() += OffTangent(turned);
+  }
   result.white.diagonal().array() += kDefinedPoseVariance;
   result.reported.diagonal().array() += kDefinedPoseVariance;
   // Rotations make displacements of the origin, with the rounding errors of what they are made of.

@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
+#include <random>
 
 #include "disflow/flow/registration.h"
+#include "disflow/flow/registration_impl.h"
 #include "disflow/limits.h"
 
 namespace disflow::testing {
@@ -84,6 +87,34 @@ TEST(EdgeResiduals, RoundOutlineBesideAnEdge_LeavesTheEdgesScore) {
   EXPECT_EQ(registration->EdgeScore(model, config, PoseObjectFromCamera()), alone);
   ASSERT_TRUE(edges.push_back(PointAt(0.1F, true)));
   EXPECT_NEAR(registration->EdgeScore(model, config, PoseObjectFromCamera()), 0.5F * alone, 1e-5F);
+}
+
+/// How far edges seem to be off that lie `std_m` off the known one, taken for as good as others.
+float SpreadOf(float std_m, int points) {
+  const Residuals::Model model = KnownEdge();
+  const RegistrationConfig config;
+  std::mt19937 random(3);
+  std::normal_distribution<float> off_m(0.0F, std_m);
+  Residuals::Edges edges;
+  for (int i = 0; i < points; ++i) EXPECT_TRUE(edges.push_back(PointAt(off_m(random), true)));
+  // What is in no model says nothing.
+  for (int i = 0; i < 20; ++i) EXPECT_TRUE(edges.push_back(PointAt(0.1F, true)));
+  const auto index = std::make_unique<Residuals::Index>();
+  Residuals residuals(model, edges, config, *index);
+  for (int i = 0; i < edges.size(); ++i)
+    (void)residuals.At(i, PoseObjectFromCamera(), kScale_m, Matching::kSearch);
+  return disflow::SpreadOf<profiles::Micro::kMaxEdgePoints>(residuals, PoseObjectFromCamera());
+}
+
+TEST(EdgeResiduals, Spread_IsThatOfThePlacesInTheirStandardDeviations) {
+  const float alone_m = std::sqrt(PointAt(0.0F, true).variance_m2 * (1.0F + 1.0F / 20.0F));
+  for (const float ratio : {0.3F, 1.0F, 2.5F})
+    EXPECT_NEAR(SpreadOf(ratio * alone_m, 100), ratio, 0.2F * ratio);
+}
+
+TEST(EdgeResiduals, SpreadOfAFewPoints_IsNotKnown) {
+  EXPECT_EQ(SpreadOf(1e-3F, 8), 0.0F);
+  EXPECT_EQ(SpreadOf(1e-3F, 0), 0.0F);
 }
 
 }  // namespace

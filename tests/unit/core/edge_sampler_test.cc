@@ -139,10 +139,12 @@ class Scene {
     const ErodedMask interior(*mask_, config_.border_px);
     Counters counters;
     sampler_->Sample(depth, kCamera, interior, config_, *samples_, counters);
-    EdgeSampler<profiles::Micro>::Sample(depth, kCamera, *mask_, given_, *sampler_, config_,
-                                         kLeastStd_px, edges_);
+    source_ = EdgeSampler<profiles::Micro>::Sample(depth, kCamera, *mask_, given_, *sampler_,
+                                                   config_, kLeastStd_px, scale_, edges_);
     return edges_;
   }
+  [[nodiscard]] OutlineSource source() const { return source_; }
+  [[nodiscard]] OutlineScale& scale() { return scale_; }
   /// All edges are where the outline is.
   /// @param cuts_px Columns in which something else cuts the outline off.
   void ExpectOnOutline(std::initializer_list<float> cuts_px = {}) const {
@@ -203,6 +205,8 @@ class Scene {
   std::unique_ptr<Sampler> sampler_ = std::make_unique<Sampler>();
   std::unique_ptr<Sampler::Samples> samples_ = std::make_unique<Sampler::Samples>();
   Edges edges_;
+  OutlineScale scale_;
+  OutlineSource source_ = OutlineSource::kDepth;
 };
 
 /// Which of the four sides have edges on them.
@@ -322,6 +326,26 @@ TEST(EdgeSampler, ExactMaskOverFattenedDepth_SaysWhereThePlateEnds) {
     EXPECT_EQ(SidesFound(plate, edges), 4);
   }
   EXPECT_GE(std_px[0], std_px[1]) << "the depth's outline is ragged";
+}
+
+TEST(EdgeSampler, OutlinesThatAreKnownToBeOffByMore_AreNoisierWhereTheyAreThatSources) {
+  const Plate plate = TurnedPlate(Vec3(0.2F, -0.2F, 0.0F));
+  for (const bool masked : {false, true}) {
+    Scene scene(plate);
+    scene.Fatten(4);
+    if (masked) scene.GiveMask();
+    const auto std_px = [&scene] {
+      const EdgePoint& edge = scene.Find()[0];
+      return std::sqrt(edge.variance_m2) / PixelWidth(edge);
+    };
+    const float before_px = std_px();
+    EXPECT_EQ(scene.source(), masked ? OutlineSource::kMask : OutlineSource::kDepth);
+    scene.scale().Learn(masked ? OutlineSource::kDepth : OutlineSource::kMask, 2.0F);
+    EXPECT_EQ(std_px(), before_px) << "told of the other source";
+    scene.scale().Learn(scene.source(), 2.0F);
+    EXPECT_NEAR(std_px(), scene.scale().Of(scene.source()) * before_px, 1e-3F);
+    EXPECT_GT(std_px(), 1.05F * before_px);
+  }
 }
 
 TEST(EdgeSampler, ThinPostBesideAnExactMask_IsNoBackground) {

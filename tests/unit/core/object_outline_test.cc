@@ -84,7 +84,7 @@ TEST_F(ObjectOutlineTest, SmoothDisk_HasPointsAllAroundAndNextToNoNoise) {
   EXPECT_GT(outline_.points().size(), 100);
   EXPECT_LT(OffCircle(50.0F), 0.4F);
   EXPECT_LT(outline_.std_px(), 0.35F) << "what the pixels themselves do";
-  EXPECT_FALSE(outline_.is_masks());
+  EXPECT_EQ(outline_.source(), OutlineSource::kDepth);
   Vec2 sum = Vec2::Zero();
   for (const OutlinePoint& point : outline_.points()) {
     EXPECT_GT(point.inward.dot(Vec2(kCenterU, kCenterV) - point.pixel), 45.0F);
@@ -104,7 +104,7 @@ TEST_F(ObjectOutlineTest, RaggedOutline_IsNoisierThanASmoothOne) {
 TEST_F(ObjectOutlineTest, ExactMaskOverRaggedDepth_IsTaken) {
   Give(Disk(50.0F, 0.0F));
   Find(Disk(50.0F, 1.5F));
-  EXPECT_TRUE(outline_.is_masks());
+  EXPECT_EQ(outline_.source(), OutlineSource::kMask);
   EXPECT_LT(OffCircle(50.0F), 0.4F);
   EXPECT_LT(outline_.std_px(), 0.35F);
   EXPECT_GT(outline_.depth_std_px(), 0.45F);
@@ -114,17 +114,17 @@ TEST_F(ObjectOutlineTest, MaskOfAnotherObject_IsNotTaken) {
   Give(Disk(50.0F, 0.0F), 3);
   given_.label = 3;
   Find(Disk(50.0F, 1.0F));
-  EXPECT_TRUE(outline_.is_masks());
+  EXPECT_EQ(outline_.source(), OutlineSource::kMask);
   given_.label = 4;
   Find(Disk(50.0F, 1.0F));
-  EXPECT_FALSE(outline_.is_masks());
+  EXPECT_EQ(outline_.source(), OutlineSource::kDepth);
 }
 
 TEST_F(ObjectOutlineTest, MaskTooLargeOrTooSmall_IsNotTaken) {
   for (const float grown_px : {-12.0F, -5.0F, -3.0F, 3.0F, 5.0F, 12.0F}) {
     Give(Disk(50.0F + grown_px, 0.0F));
     Find(Disk(50.0F, 0.7F));
-    EXPECT_FALSE(outline_.is_masks()) << grown_px;
+    EXPECT_EQ(outline_.source(), OutlineSource::kDepth) << grown_px;
     EXPECT_LT(OffCircle(50.0F), 1.0F);
   }
 }
@@ -133,7 +133,7 @@ TEST_F(ObjectOutlineTest, NoObject_HasNoPoints) {
   Give(Disk(50.0F, 0.0F));
   Find(Disk(0.0F, 0.0F));
   EXPECT_TRUE(outline_.points().empty());
-  EXPECT_FALSE(outline_.is_masks());
+  EXPECT_EQ(outline_.source(), OutlineSource::kDepth);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "disflow/config.h"
 #include "disflow/depth/object_outline.h"
+#include "disflow/depth/outline_scale.h"
 #include "disflow/depth/surface_sample.h"
 #include "disflow/depth/surface_sampler.h"
 
@@ -22,19 +23,24 @@ class EdgeSampler {
   /// @param object All of the object's pixels, not eroded.
   /// @param given The user's mask, if there is one.
   /// @param least_std_px Noise of the best outline.
+  /// @param scale What is known of outlines beyond how ragged they are.
+  /// @return Whose outline the edges are on.
   template <class Mask>
-  static void Sample(const DepthReader& depth, const PinholeCamera& camera, const Mask& object,
-                     const MaskView& given, const SurfaceSampler<Limits>& surfaces,
-                     const SamplerConfig& config, float least_std_px, Edges& edges) noexcept {
+  [[nodiscard]] static OutlineSource Sample(const DepthReader& depth, const PinholeCamera& camera,
+                                            const Mask& object, const MaskView& given,
+                                            const SurfaceSampler<Limits>& surfaces,
+                                            const SamplerConfig& config, float least_std_px,
+                                            const OutlineScale& scale, Edges& edges) noexcept {
     edges.clear();
     Outline outline;
     outline.Find(object, given);
-    const float std_px = std::fmax(outline.std_px(), least_std_px);
+    const float std_px = scale.Of(outline.source()) * std::fmax(outline.std_px(), least_std_px);
     for (const OutlinePoint& point : outline.points()) {
       EdgePoint edge;
       if (MakeEdge(depth, camera, outline, point, surfaces, config, std_px, edge))
         (void)edges.push_back(edge);
     }
+    return outline.source();
   }
 
  private:
@@ -77,7 +83,7 @@ class EdgeSampler {
     const float facing = near.normal.dot(ray);
     const float depth_m = near.offset_m / facing;
     // Beside an exact mask the depth goes on as far as windows are matched.
-    const int rim_px = outline.is_masks() ? kMatchingReachPx : kFlyingPx;
+    const int rim_px = outline.source() == OutlineSource::kMask ? kMatchingReachPx : kFlyingPx;
     if (!(depth_m > 0.0F) || !EndsBeforeBackground(depth, config, point, rim_px, depth_m))
       return false;
     // Where the depth's outline is ragged, its last pixels say nothing.

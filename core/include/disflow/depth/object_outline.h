@@ -6,6 +6,7 @@
 
 #include "disflow/depth/depth_frame.h"
 #include "disflow/depth/outline.h"
+#include "disflow/depth/outline_scale.h"
 
 namespace disflow {
 
@@ -25,8 +26,8 @@ class ObjectOutline {
     Collect(object);
     depth_std_px_ = NoiseOf(object);
     std_px_ = depth_std_px_;
-    is_masks_ = given.given() && IsExact(given);
-    if (!is_masks_) return;
+    source_ = given.given() && IsExact(given) ? OutlineSource::kMask : OutlineSource::kDepth;
+    if (source_ == OutlineSource::kDepth) return;
     TakeFrom(given);
     std_px_ = NoiseOf(given);
   }
@@ -36,8 +37,8 @@ class ObjectOutline {
   [[nodiscard]] float std_px() const noexcept { return std_px_; }
   /// The same of the depth's outline.
   [[nodiscard]] float depth_std_px() const noexcept { return depth_std_px_; }
-  /// Whether the points are on the outline of the given mask, not on the depth's.
-  [[nodiscard]] bool is_masks() const noexcept { return is_masks_; }
+  /// Whose outline the points are on.
+  [[nodiscard]] OutlineSource source() const noexcept { return source_; }
 
  private:
   /// How far a mask is looked for from the depth's outline.
@@ -115,7 +116,7 @@ class ObjectOutline {
   Points points_;
   float std_px_ = 0.0F;
   float depth_std_px_ = 0.0F;
-  bool is_masks_ = false;
+  OutlineSource source_ = OutlineSource::kDepth;
 };
 
 }  // namespace disflow

@@ -22,7 +22,7 @@ namespace disflow {
 /// step (graduated non-convexity), gates on normal agreement and matching distance, rotation about
 /// the observed centroid, occluding edges with the radius that they are rounded with.
 ///
-/// Align() is defined in registration_impl.h.
+/// Larger members are defined in registration_impl.h.
 template <class Limits>
 class Registration {
  public:
@@ -54,49 +54,16 @@ class Registration {
   /// Share of the observed points that the model explains under a pose, 0..1. Unmatched points
   /// count 0.
   [[nodiscard]] float Score(const Field& field, const RegistrationConfig& config,
-                            const PoseObjectFromCamera& T_oc) const noexcept {
-    if (samples_.empty()) return 0.0F;
-    const int wanted = std::min(config.score_points, samples_.size());
-    float sum = 0.0F;
-    for (int i = 0; i < wanted; ++i) {
-      const SurfaceSample& sample = samples_[i * samples_.size() / wanted];
-      const auto match = field.FindMatch(T_oc * sample.position_m, T_oc.rotation() * sample.normal,
-                                         config.match_radius_m, config.min_normal_cos);
-      if (!match.found) continue;
-      sum += Explained(match.distance_m, sample.variance_m2 + match.variance_m2);
-    }
-    return sum / static_cast<float>(wanted);
-  }
+                            const PoseObjectFromCamera& T_oc) const noexcept;
 
   /// The same under the pose that Align() found last, by what the points were matched with there.
   [[nodiscard]] float ScoreOfAligned(const Field& field, const RegistrationConfig& config,
-                                     const PoseObjectFromCamera& T_oc) noexcept {
-    if (samples_.empty()) return 0.0F;
-    SurfaceResiduals<Limits> surfaces(field, samples_, config, known_);
-    float sum = 0.0F;
-    for (int i = 0; i < surfaces.size(); ++i) {
-      const Residual residual = surfaces.At(i, T_oc, 0.0F, Matching::kLinear);
-      if (residual.status != ResidualStatus::kMatched) continue;
-      sum += Explained(residual.distance_m, residual.variance_m2);
-    }
-    return sum / static_cast<float>(samples_.size());
-  }
+                                     const PoseObjectFromCamera& T_oc) noexcept;
 
   /// Share of the observed occluding edges that lie on edges of the model, 0..1, of those that
   /// should. Tells apart poses between which the surface could slide.
   [[nodiscard]] float EdgeScore(const Model& model_edges, const RegistrationConfig& config,
-                                const PoseObjectFromCamera& T_oc) noexcept {
-    EdgeResiduals<Limits> edges(model_edges, *edges_, config, edge_index_);
-    float sum = 0.0F;
-    int expected = 0;
-    for (int i = 0; i < edges.size(); ++i) {
-      const Residual edge = edges.At(i, T_oc, 0.0F, Matching::kSearch);
-      if (edge.status != ResidualStatus::kUnexpected) ++expected;
-      if (edge.status != ResidualStatus::kMatched) continue;
-      sum += GemanMcClure(edge.distance_m, 2.0F * std::sqrt(edge.variance_m2));
-    }
-    return expected == 0 ? 0.0F : sum / static_cast<float>(expected);
-  }
+                                const PoseObjectFromCamera& T_oc) noexcept;
 
   /// Minimises E = sum d(T_oc x^c)^2 (section V-C) by closed-form steps from T_start.
   /// @param T_predicted Centre of the temporal regulariser.

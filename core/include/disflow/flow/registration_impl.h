@@ -5,9 +5,54 @@
 #include "disflow/flow/residual_sums_impl.h"
 
 /// @file
-/// The steps of a registration: definitions of members of Registration.
+/// Scores and steps of a registration: definitions of members of Registration.
 
 namespace disflow {
+
+template <class Limits>
+float Registration<Limits>::Score(const Field& field, const RegistrationConfig& config,
+                                  const PoseObjectFromCamera& T_oc) const noexcept {
+  if (samples_.empty()) return 0.0F;
+  const int wanted = std::min(config.score_points, samples_.size());
+  float sum = 0.0F;
+  for (int i = 0; i < wanted; ++i) {
+    const SurfaceSample& sample = samples_[i * samples_.size() / wanted];
+    const auto match = field.FindMatch(T_oc * sample.position_m, T_oc.rotation() * sample.normal,
+                                       config.match_radius_m, config.min_normal_cos);
+    if (!match.found) continue;
+    sum += Explained(match.distance_m, sample.variance_m2 + match.variance_m2);
+  }
+  return sum / static_cast<float>(wanted);
+}
+
+template <class Limits>
+float Registration<Limits>::ScoreOfAligned(const Field& field, const RegistrationConfig& config,
+                                           const PoseObjectFromCamera& T_oc) noexcept {
+  if (samples_.empty()) return 0.0F;
+  SurfaceResiduals<Limits> surfaces(field, samples_, config, known_);
+  float sum = 0.0F;
+  for (int i = 0; i < surfaces.size(); ++i) {
+    const Residual residual = surfaces.At(i, T_oc, 0.0F, Matching::kLinear);
+    if (residual.status != ResidualStatus::kMatched) continue;
+    sum += Explained(residual.distance_m, residual.variance_m2);
+  }
+  return sum / static_cast<float>(samples_.size());
+}
+
+template <class Limits>
+float Registration<Limits>::EdgeScore(const Model& model_edges, const RegistrationConfig& config,
+                                      const PoseObjectFromCamera& T_oc) noexcept {
+  EdgeResiduals<Limits> edges(model_edges, *edges_, config, edge_index_);
+  float sum = 0.0F;
+  int expected = 0;
+  for (int i = 0; i < edges.size(); ++i) {
+    const Residual edge = edges.At(i, T_oc, 0.0F, Matching::kSearch);
+    if (edge.status != ResidualStatus::kUnexpected) ++expected;
+    if (edge.status != ResidualStatus::kMatched) continue;
+    sum += GemanMcClure(edge.distance_m, 2.0F * std::sqrt(edge.variance_m2));
+  }
+  return expected == 0 ? 0.0F : sum / static_cast<float>(expected);
+}
 
 template <class Limits>
 RegistrationResult Registration<Limits>::Align(const Field& field, const Model& model_edges,
@@ -48,7 +93,10 @@ RegistrationResult Registration<Limits>::Align(const Field& field, const Model& 
     if (i + 1 >= kMinSteps && IsSmallerThan(xi, kConverged_m, kConverged_rad)) break;
   }
   // Once, at the end: it costs a factorisation.
-  if (result.solved) result.rounding = {edges.radius_m(), joint.RadiusVariance(equations)};
+  if (result.solved) {
+    result.rounding = {edges.radius_m(), joint.RadiusVariance(equations)};
+    result.edge_spread = SpreadOf<Limits::kMaxEdgePoints>(edges, result.T_oc);
+  }
   return result;
 }
 
@@ -79,7 +127,8 @@ NormalEquations Registration<Limits>::Linearise(SurfaceResiduals<Limits>& surfac
   result.information.across = equations.Isotropic() - equations.h;
   result.information.gradient_variance_rad2 = kFieldsTilt * surface.mean_tilt_rad2();
   const ResidualSums edge =
-      AddResiduals(edges, T_oc, center_m, {config, scale.edges_m, result.edge_trust}, matching);
+      AddResiduals(edges, T_oc, center_m,
+                   {config, scale.edges_m, result.edge_trust, kEdgeInlierWeight}, matching);
   equations += edge.normals;
 
   const EdgeRounding& known = edges.known_rounding();

@@ -47,11 +47,18 @@ struct Residual {
   float tilt_rad2 = 0.0F;
 };
 
+/// Where residuals are as large as the robust kernel is wide.
+inline constexpr float kInlierWeight = 0.25F;
+/// Where they are twice as large: of edges whose noise is known 95 %.
+inline constexpr float kEdgeInlierWeight = 0.04F;
+
 /// How the residuals of one kind are weighted in one step (section V-E and additions to the paper).
 struct ResidualWeighting {
   const RegistrationConfig& config;
   float scale_m;       ///< Width of the robust kernel.
   float trust = 1.0F;  ///< How far this kind is believed, 0..1.
+  /// Weight of the robust kernel from which on a residual supports the pose.
+  float inlier_weight = kInlierWeight;
 };
 
 /// How observations find what they are matched with.

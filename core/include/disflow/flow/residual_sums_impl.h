@@ -6,6 +6,7 @@
 
 #include "disflow/flow/normal_equations.h"
 #include "disflow/flow/residual.h"
+#include "disflow/memory/fixed_vector.h"
 
 /// @file
 /// How residuals are added up: in line, since each frame adds thousands, but apart, since Eigen's
@@ -29,10 +30,6 @@ inline void NormalSums::Add(const Vec3& lever_m, const Vec3& gradient, float res
     moments_.col(k) += place[k] * weighted_place;
   }
 }
-
-/// Weight of the robust kernel from which on a residual supports the pose: it is then smaller than
-/// the kernel's width.
-inline constexpr float kInlierWeight = 0.25F;
 
 /// The gates of section V-E: residual truncation, and no direction without a gradient.
 [[nodiscard]] inline ResidualStatus Gate(const Residual& residual,
@@ -85,7 +82,7 @@ inline void ResidualSums::Add(const Residual& residual, const ResidualWeighting&
   weighted_generation += robust * residual.generation;
   information += row_weight;
   informed_tilt_rad2 += row_weight * residual.tilt_rad2;
-  if (robust > kInlierWeight) ++inliers;
+  if (robust > weighting.inlier_weight) ++inliers;
 }
 
 template <class Residuals>
@@ -97,6 +94,25 @@ ResidualSums AddResiduals(Residuals& residuals, const PoseObjectFromCamera& T_oc
     sums.Add(residuals.At(i, T_oc, weighting.scale_m, matching), weighting, center_m);
   }
   return sums;
+}
+
+/// How far residuals are off under a pose, matched as by the last step, in their standard
+/// deviations: the median, as that of a normal distribution, so 1 where these are right. 0 where
+/// too few tell.
+template <int kMost, class Residuals>
+[[nodiscard]] float SpreadOf(Residuals& residuals, const PoseObjectFromCamera& T_oc) noexcept {
+  constexpr int kFewest = 12;
+  constexpr float kMedianOfNormal = 0.6745F;
+  FixedVector<float, kMost> deviations;
+  for (int i = 0; i < residuals.size(); ++i) {
+    const Residual residual = residuals.At(i, T_oc, 0.0F, Matching::kLinear);
+    if (residual.status != ResidualStatus::kMatched) continue;
+    (void)deviations.push_back(std::abs(residual.distance_m) / std::sqrt(residual.variance_m2));
+  }
+  if (deviations.size() < kFewest) return 0.0F;
+  auto* middle = deviations.begin() + deviations.size() / 2;
+  std::nth_element(deviations.begin(), middle, deviations.end());
+  return *middle / kMedianOfNormal;
 }
 
 }  // namespace disflow
