@@ -2,6 +2,7 @@
 #pragma once
 
 #include "disflow/depth/depth_reader.h"
+#include "disflow/depth/moving_subset.h"
 #include "disflow/flow/model_agreement.h"
 #include "disflow/tracker.h"
 
@@ -51,15 +52,11 @@ template <CapacityProfile Limits>
 void Tracker<Limits>::FuseObservations(const DepthFrame& frame, Estimate& estimate) noexcept {
   const bool first = frame_index_ == 0;
   const int wanted = first ? samples_.size() : std::min(samples_.size(), config_.field.fuse_budget);
-  // The subset moves from frame to frame by the golden ratio of its spacing, so that every sample
-  // of an image that does not change gets its turn.
-  constexpr std::uint32_t kGoldenRatio = 40503;  // of 2^16
-  const std::int64_t phase = (frame_index_ * kGoldenRatio) & 0xFFFFU;
+  const MovingSubset subset(samples_.size(), wanted, frame_index_);
   const Mat3& R_oc = T_oc_.rotation();
   const DepthReader depth = UsableDepth(frame);
   for (int i = 0; i < wanted; ++i) {
-    const std::int64_t index = ((std::int64_t{i} << 16) + phase) * samples_.size() / wanted >> 16;
-    SurfaceSample observation = samples_[static_cast<int>(index)];
+    SurfaceSample observation = samples_[subset.At(i)];
     const PixelAt px(frame.camera.Project(observation.position_m));
     const bool undecided =
         contact_.merged || overrun_.IsReachedFrom(px.u, px.v, depth, frame.camera);
