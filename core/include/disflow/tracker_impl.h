@@ -27,7 +27,6 @@ Tracker<Limits>::Tracker(const Config& config) noexcept
     : config_(config), config_issue_(Validate(config)) {
   field_.Start(config_.field);
   model_edges_.Start();
-  outline_scale_ = {};
   seen_.Start();
 }
 

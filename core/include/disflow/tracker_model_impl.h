@@ -2,8 +2,8 @@
 #pragma once
 
 #include "disflow/depth/depth_reader.h"
-#include "disflow/depth/moving_subset.h"
 #include "disflow/flow/model_agreement.h"
+#include "disflow/memory/every_nth.h"
 #include "disflow/tracker.h"
 
 /// @file
@@ -51,12 +51,11 @@ void Tracker<Limits>::ForgetContradicted(const DepthFrame& frame, const PoseObje
 template <CapacityProfile Limits>
 void Tracker<Limits>::FuseObservations(const DepthFrame& frame, Estimate& estimate) noexcept {
   const bool first = frame_index_ == 0;
-  const int wanted = first ? samples_.size() : std::min(samples_.size(), config_.field.fuse_budget);
-  const MovingSubset subset(samples_.size(), wanted, frame_index_);
+  const EveryNth some(samples_, first ? samples_.size() : config_.field.fuse_budget, frame_index_);
   const Mat3& R_oc = T_oc_.rotation();
   const DepthReader depth = UsableDepth(frame);
-  for (int i = 0; i < wanted; ++i) {
-    SurfaceSample observation = samples_[subset.At(i)];
+  for (int i = 0; i < some.size(); ++i) {
+    SurfaceSample observation = some[i];
     const PixelAt px(frame.camera.Project(observation.position_m));
     const bool undecided =
         contact_.merged || overrun_.IsReachedFrom(px.u, px.v, depth, frame.camera);

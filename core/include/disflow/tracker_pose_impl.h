@@ -12,6 +12,7 @@
 #include "disflow/flow/pose_uncertainty.h"
 #include "disflow/flow/weak_direction.h"
 #include "disflow/geometry/covariance.h"
+#include "disflow/memory/every_nth.h"
 #include "disflow/tracker.h"
 
 /// @file

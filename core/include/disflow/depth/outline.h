@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 
 #include "disflow/geometry/pinhole_camera.h"
 #include "disflow/memory/fixed_vector.h"
+#include "disflow/memory/median.h"
 #include "disflow/types.h"
 
 namespace disflow {
@@ -141,12 +141,9 @@ class OutlineNoise {
 
   /// @return Standard deviation; 0 if nothing is known.
   [[nodiscard]] float std_px() noexcept {
-    if (contrasts_px_.empty()) return 0.0F;
     constexpr float kStdOfContrast = 4.4721F;  // sqrt(1 + 9 + 9 + 1)
-    constexpr float kMedianOfNormal = 0.6745F;
-    auto* middle = contrasts_px_.begin() + contrasts_px_.size() / 2;
-    std::nth_element(contrasts_px_.begin(), middle, contrasts_px_.end());
-    return *middle / (kStdOfContrast * kMedianOfNormal);
+    return MedianOf(contrasts_px_.begin(), contrasts_px_.end()) /
+           (kStdOfContrast * kMedianPerSigma);
   }
 
  private:

@@ -8,6 +8,7 @@
 #include "disflow/depth/block_contrasts.h"
 #include "disflow/depth/block_grid.h"
 #include "disflow/depth/inverse_depth_block.h"
+#include "disflow/memory/median.h"
 
 namespace disflow {
 
@@ -67,10 +68,7 @@ class SensorNoise {
  private:
   /// Of the first ones; 0 if there are none.
   [[nodiscard]] float MedianResidual(int count) noexcept {
-    if (count == 0) return 0.0F;
-    const auto middle = residuals_.begin() + count / 2;
-    std::nth_element(residuals_.begin(), middle, residuals_.begin() + count);
-    return *middle;
+    return MedianOf(residuals_.data(), residuals_.data() + count);
   }
 
   static constexpr int kNoiseBlocks = 512;

@@ -6,6 +6,7 @@
 
 #include "disflow/depth/valley_cut.h"
 #include "disflow/memory/fixed_vector.h"
+#include "disflow/memory/median.h"
 
 /// @file
 /// Definitions of ValleyCut's members; apart, so that tracker.h stays light.
@@ -15,7 +16,6 @@ namespace disflow {
 template <int kMaxWidth>
 void ValleyCut<kMaxWidth>::Start(const DepthReader& depth, const PinholeCamera& camera,
                                  const PixelBox& box, float distance_m) noexcept {
-  constexpr float kMedianPerSigma = 0.6745F;
   constexpr float kSecondPerThird = 0.5477F;  // sqrt(6 / 20), from the sums of squared weights
   Forget(box.u_min / kCellPx, (box.u_max - 1) / kCellPx + 1);
   stride_ = 0;
@@ -59,10 +59,7 @@ float ValleyCut<kMaxWidth>::Median(const DepthReader& depth, const PixelBox& box
       if (ReadLine(depth, u, v, 0, 1, line)) (void)values.push_back(value(line));
     }
   }
-  if (values.empty()) return 0.0F;
-  auto* middle = values.begin() + values.size() / 2;
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return MedianOf(values.begin(), values.end());
 }
 
 /// @return Whether all of its points have depth.

@@ -7,6 +7,7 @@
 #include "disflow/flow/normal_equations.h"
 #include "disflow/flow/residual.h"
 #include "disflow/memory/fixed_vector.h"
+#include "disflow/memory/median.h"
 
 /// @file
 /// How residuals are added up: in line, since each frame adds thousands, but apart, since Eigen's
@@ -102,7 +103,6 @@ ResidualSums AddResiduals(Residuals& residuals, const PoseObjectFromCamera& T_oc
 template <int kMost, class Residuals>
 [[nodiscard]] float SpreadOf(Residuals& residuals, const PoseObjectFromCamera& T_oc) noexcept {
   constexpr int kFewest = 12;
-  constexpr float kMedianOfNormal = 0.6745F;
   FixedVector<float, kMost> deviations;
   for (int i = 0; i < residuals.size(); ++i) {
     const Residual residual = residuals.At(i, T_oc, 0.0F, Matching::kLinear);
@@ -110,9 +110,7 @@ template <int kMost, class Residuals>
     (void)deviations.push_back(std::abs(residual.distance_m) / std::sqrt(residual.variance_m2));
   }
   if (deviations.size() < kFewest) return 0.0F;
-  auto* middle = deviations.begin() + deviations.size() / 2;
-  std::nth_element(deviations.begin(), middle, deviations.end());
-  return *middle / kMedianOfNormal;
+  return MedianOf(deviations.begin(), deviations.end()) / kMedianPerSigma;
 }
 
 }  // namespace disflow

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cassert>
-#include <cstdint>
 #include <type_traits>
 
 namespace disflow {
@@ -57,22 +56,6 @@ class FixedVector {
  private:
   std::array<T, static_cast<std::size_t>(kCapacity)> items_;
   int size_ = 0;
-};
-
-/// An even part of a sequence, at most `count` of its elements. A view.
-template <class Sequence>
-class EveryNth {
- public:
-  EveryNth(const Sequence& sequence, int count) noexcept
-      : sequence_(sequence), count_(count < sequence.size() ? count : sequence.size()) {}
-  [[nodiscard]] int size() const noexcept { return count_; }
-  [[nodiscard]] const auto& operator[](int i) const noexcept {
-    return sequence_[static_cast<int>(static_cast<std::int64_t>(i) * sequence_.size() / count_)];
-  }
-
- private:
-  const Sequence& sequence_;
-  int count_;
 };
 
 }  // namespace disflow
