@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "disflow/geometry/covariance.h"
 
+#include <cmath>
+
 #include "disflow/geometry/transform.h"
 
 namespace disflow {
@@ -23,6 +25,14 @@ Mat6 CovarianceAtPoint(const Mat6& covariance, const Mat3& rotation,
   jacobian.topRightCorner<3, 3>() = -rotation * Skew(to_point_m);
   jacobian.bottomRightCorner<3, 3>() = rotation;
   return jacobian * covariance * jacobian.transpose();
+}
+
+float LargestPositionStd(const Mat6& covariance) noexcept {
+  return std::sqrt(covariance.diagonal().head<3>().maxCoeff());
+}
+
+float LargestRotationStd(const Mat6& covariance) noexcept {
+  return std::sqrt(covariance.diagonal().tail<3>().maxCoeff());
 }
 
 Mat6 Resolvable(const Mat6& covariance, const Vec6& beside) noexcept {

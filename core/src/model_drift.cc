@@ -14,13 +14,16 @@ float LeverOf(const RegistrationInformation& information) noexcept {
   return std::fmax(std::sqrt(moment_m2 / weight), kLeast_m);
 }
 
-Mat6 WithDrift(const Mat6& covariance, float pieces, const PlacementScale& scale, float lever_m,
-               const RegistrationConfig& config) noexcept {
-  const float position_m = config.drift_px * scale.pixel_m;
-  const float rotation_rad = config.drift_tilt * scale.depth_noise_m / lever_m;
-  Mat6 result = (1.0F + pieces) * covariance;
-  result.diagonal().head<3>().array() += pieces * position_m * position_m;
-  result.diagonal().tail<3>().array() += pieces * rotation_rad * rotation_rad;
+Mat6 DriftOf(const Mat6& covariance, const PlacementScale& scale,
+             const RegistrationConfig& config) noexcept {
+  const float of_outlines_m = config.drift_outline * scale.outline_m;
+  const float bias_m = config.depth_bias_m;
+  const float bias_rad = bias_m / scale.lever_m;
+  const float views = 1.0F + scale.pieces;
+  Mat6 result = scale.pieces * config.drift_noise * covariance;
+  result.diagonal().head<3>().array() +=
+      scale.pieces * of_outlines_m * of_outlines_m + views * bias_m * bias_m;
+  result.diagonal().tail<3>().array() += views * bias_rad * bias_rad;
   return result;
 }
 

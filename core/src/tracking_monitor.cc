@@ -10,8 +10,11 @@ namespace {
 // Standard deviations at which a pose is worth half: a gripper's tolerance.
 constexpr float kPositionStdHalf_m = 0.005F;
 constexpr float kRotationStdHalf_rad = 0.05F;
+// Inliers of a pose that was followed. Of what is usual for this object and sensor, where that is
+// little: what a sensor makes of the noise that is stated for it decides how many there are.
 constexpr float kMinInlierShare = 0.15F;
-// Of what is usual for this object and sensor, after a loss.
+constexpr float kMinFollowedShare = 0.33F;
+// Likewise, after a loss.
 constexpr float kMinRecoveredShare = 0.55F;
 // Likewise, for a pose that may be any; of other poses of mugs and bottles those that come nearest
 // reach 0.94 of the usual score, or contradict the model by 0.03 more than usual in one of two
@@ -48,7 +51,7 @@ bool TrackingMonitor::Accepts(const Evidence& evidence, StampNs stamp_ns) const 
   const float inlier_share = InlierShare(evidence);
   if (!Doubts(stamp_ns)) {
     return evidence.score >= config_.lost_score && evidence.conflict <= config_.lost_conflict &&
-           inlier_share >= kMinInlierShare;
+           inlier_share >= std::min(kMinInlierShare, kMinFollowedShare * usual_.inlier_share);
   }
   return Explains(evidence) && evidence.conflict <= config_.degraded_conflict + usual_.conflict;
 }
@@ -133,8 +136,8 @@ bool TrackingMonitor::Recognises(const Evidence& evidence) const noexcept {
          InlierShare(evidence) >= kRecognisedInlierShare * usual_.inlier_share &&
          evidence.conflict <= usual_.conflict + kRecognisedConflict &&
          evidence.visible >= kRecognisedVisible &&
-         evidence.position_std_m <= config_.degraded_std_m &&
-         evidence.rotation_std_rad <= config_.degraded_std_rad;
+         evidence.position_to_model_std_m <= config_.degraded_std_m &&
+         evidence.rotation_to_model_std_rad <= config_.degraded_std_rad;
 }
 
 bool TrackingMonitor::ShouldRestart() const noexcept {

@@ -156,13 +156,15 @@ constexpr void VisitFields(ConfigType& config, Visitor&& visitor) {
       "registration.gradient_std_rad", reg.gradient_std_rad, 0.0, 1.0, "rad",
       "least error of the field's gradients, to which each frame adds what its normals show; what "
       "it makes up for a rotation does not count as known");
-  field("registration.white_noise_share", reg.white_noise_share, 0.01, 100.0, "1",
-        "share of the pose covariance that changes from frame to frame, as the twist filter takes "
-        "it");
-  field("registration.drift_px", reg.drift_px, 0.0, 100.0, "px",
-        "how far off each piece of surface is that the model has grown by since the first view");
-  field("registration.drift_tilt", reg.drift_tilt, 0.0, 100.0, "1",
-        "how far it is turned, in multiples of a pixel's depth noise at the object's radius");
+  field(
+      "registration.drift_noise", reg.drift_noise, 0.0, 1000.0, "1",
+      "variance of the place of each piece of surface that the model has grown by since the first "
+      "view, in multiples of the pose's noise");
+  field("registration.drift_outline", reg.drift_outline, 0.0, 100.0, "1",
+        "how far off its place is for the outlines, in multiples of their standard deviation");
+  field("registration.depth_bias_m", reg.depth_bias_m, 0.0, 1.0, "m",
+        "what the sensor's depth is off by, differently in each view, beside its noise: a data "
+        "sheet's accuracy");
   auto& twist = config.twist;
   field("twist.linear_jerk_psd", twist.linear_jerk_psd, 1e-6, 1e9, "m^2/s^5",
         "power density of the jerk, translation");

@@ -12,6 +12,7 @@
 #include "disflow/estimate.h"
 #include "disflow/field/distance_field.h"
 #include "disflow/field/edge_map.h"
+#include "disflow/flow/pose_noise.h"
 #include "disflow/flow/recognition.h"
 #include "disflow/flow/registration.h"
 #include "disflow/flow/tracking_monitor.h"
@@ -105,8 +106,10 @@ class Tracker {
 
   struct PoseCovariance {
     bool solved = false;
-    Mat6 white = Mat6::Zero();     ///< What changes from frame to frame.
-    Mat6 reported = Mat6::Zero();  ///< With the drift of the model since its first view.
+    Mat6 registered = Mat6::Zero();  ///< Of the registration alone, about its centre, object axes.
+    Mat6 white = Mat6::Zero();       ///< What changes from frame to frame.
+    Mat6 to_model = Mat6::Zero();    ///< Relative to the model.
+    Mat6 reported = Mat6::Zero();    ///< With the drift of the model since its first view.
     /// Of the twist, along what no surface tells.
     Mat6 twist_unobserved = Mat6::Zero();
     bool complete = true;  ///< The frame tells of all directions.
@@ -131,8 +134,9 @@ class Tracker {
   [[nodiscard]] bool IsSameObjectFrame(const DepthFrame& frame,
                                        const PoseObjectFromCamera& T_oc) const noexcept;
   void Coast(StampNs stamp_ns, Estimate& estimate) const noexcept;
-  [[nodiscard]] PoseCovariance CovarianceOf(const Aligned& aligned, const DepthFrame& frame,
-                                            float inverse_depth_std_per_m) const noexcept;
+  [[nodiscard]] Mat6 TwistCovariance(const TwistFilter& filter) const noexcept;
+  [[nodiscard]] PoseCovariance CovarianceOf(const Aligned& aligned,
+                                            const DepthFrame& frame) const noexcept;
   [[nodiscard]] bool IsForeign(const Vec3& x_o) const noexcept;
   void RememberView(const DepthFrame& frame) noexcept;
   void ForgetContradicted(const DepthFrame& frame, const PoseObjectFromCamera& T_oc,
@@ -171,12 +175,13 @@ class Tracker {
   StageScratch<Segmenter<Limits>, SurfaceSampler<Limits>, Registration<Limits>> scratch_;
   typename SurfaceSampler<Limits>::Samples samples_;
   typename Registration<Limits>::Edges edges_;
-  OutlineSource outline_source_ = OutlineSource::kDepth;  ///< Whose outline they are on.
+  SampledOutline outline_;  ///< That they are on.
   OutlineScale outline_scale_;
   Field field_;
   EdgeMap<Limits::kMaxModelEdges> model_edges_;
   SeenSpace<Limits::kMaxSeenViews, Limits::kSeenCells> seen_;
   TwistFilter twist_filter_;
+  PoseNoise pose_noise_;
   TrackingMonitor monitor_;
   Recognition recognition_;
 };

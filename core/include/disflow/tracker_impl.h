@@ -101,6 +101,7 @@ void Tracker<Limits>::Reset() noexcept {
   field_.Start(config_.field);
   model_edges_.Start();
   outline_scale_ = {};
+  pose_noise_ = {};
   seen_.Start();
 }
 
@@ -202,9 +203,9 @@ Status Tracker<Limits>::Observe(const DepthFrame& frame, Estimate& estimate,
   const DepthReader depth = UsableDepth(frame);
   auto& sampler = scratch_.template Begin<SurfaceSampler<Limits>>();
   sampler.Sample(depth, frame.camera, interior, config_.sampler, samples_, estimate.rejected);
-  outline_source_ = EdgeSampler<Limits>::Sample(
-      depth, frame.camera, object_mask_, frame.mask, sampler, config_.sampler,
-      config_.registration.edge_std_px, outline_scale_, edges_);
+  outline_ = EdgeSampler<Limits>::Sample(depth, frame.camera, object_mask_, frame.mask, sampler,
+                                         config_.sampler, config_.registration.edge_std_px,
+                                         outline_scale_, edges_);
   estimate.samples = static_cast<std::uint16_t>(samples_.size());
   estimate.inverse_depth_std_per_m = sampler.noise_std();
   stopwatch.Mark(Stage::kSample);

@@ -74,20 +74,20 @@ Status Tracker<Limits>::Conclude(const DepthFrame& frame, Status observed, const
   TrackingMonitor::Evidence evidence;
   PoseCovariance covariance;
   if (aligned.solved) {
-    covariance = CovarianceOf(aligned, frame, estimate.inverse_depth_std_per_m);
+    covariance = CovarianceOf(aligned, frame);
     const ModelAgreement agreement = AgreementWith(frame, aligned.T_oc);
     estimate.conflict = agreement.conflict();
     estimate.visible = agreement.visible();
-    evidence = {
-        .registered = covariance.solved,
-        .score = estimate.score,
-        .conflict = agreement.conflict(),
-        .visible = agreement.visible(),
-        .inliers = aligned.inliers,
-        .points = aligned.points,
-        .position_std_m = std::sqrt(covariance.reported.diagonal().template head<3>().maxCoeff()),
-        .rotation_std_rad =
-            std::sqrt(covariance.reported.diagonal().template tail<3>().maxCoeff())};
+    evidence = {.registered = covariance.solved,
+                .score = estimate.score,
+                .conflict = agreement.conflict(),
+                .visible = agreement.visible(),
+                .inliers = aligned.inliers,
+                .points = aligned.points,
+                .position_std_m = LargestPositionStd(covariance.reported),
+                .rotation_std_rad = LargestRotationStd(covariance.reported),
+                .position_to_model_std_m = LargestPositionStd(covariance.to_model),
+                .rotation_to_model_std_rad = LargestRotationStd(covariance.to_model)};
   }
   evidence.in_view = observed == Status::kOk;
   const bool near = !monitor_.Doubts(frame.stamp_ns) || IsSameObjectFrame(frame, aligned.T_oc);
@@ -125,21 +125,24 @@ void Tracker<Limits>::Follow(StampNs stamp_ns, const Aligned& aligned,
   // The twist filter sees differences between frames, in which the drift of the model cancels.
   if (found_again) {
     twist_filter_.Start(config_.twist, stamp_ns, T_oc_.Inverse(), covariance.white);
+    pose_noise_.Restart();
   } else {
     twist_filter_.Predict(stamp_ns);
     twist_filter_.Update(T_oc_.Inverse(), covariance.white);
   }
+  pose_noise_.Learn(stamp_ns, T_oc_.Inverse(), aligned.center_m, covariance.registered,
+                    config_.twist);
   estimate.weak = FindWeakDirection(covariance.reported, config_.monitor);
   model_edges_.SetRounding(Remember(model_edges_.rounding(), aligned.rounding));
-  outline_scale_.Learn(outline_source_, aligned.edge_spread);
-  field_.SetGeneration(aligned.generation + 1.0F);
+  outline_scale_.Learn(outline_.source, aligned.edge_spread);
+  field_.SetGeneration(aligned.generation + pose_noise_.of_rotation());
   registered_covariance_ = covariance.reported;
   gradient_variance_rad2_ =
       RememberGradientVariance(gradient_variance_rad2_, aligned.information.gradient_variance_rad2);
   twist_unobserved_ = covariance.twist_unobserved;
   observed_frames_ = covariance.complete ? std::min(observed_frames_ + 1, kFramesUntilObserved) : 0;
   estimate.pose_covariance = covariance.reported;
-  estimate.twist_covariance = twist_filter_.twist_covariance() + twist_unobserved_;
+  estimate.twist_covariance = TwistCovariance(twist_filter_);
 }
 
 /// The pose at a constant velocity; at one that fades while the object is not seen, since what
@@ -201,16 +204,24 @@ template <CapacityProfile Limits>
 void Tracker<Limits>::Coast(StampNs stamp_ns, Estimate& estimate) const noexcept {
   TwistFilter coasting = twist_filter_;
   coasting.Predict(stamp_ns);
-  estimate.twist_covariance = coasting.twist_covariance() + twist_unobserved_;
+  estimate.twist_covariance = TwistCovariance(coasting);
   // What it was then and what has been added since.
   estimate.pose_covariance = registered_covariance_ + coasting.pose_covariance();
   estimate.weak = FindWeakDirection(estimate.pose_covariance, config_.monitor);
 }
 
+/// The noise of poses is alike for some frames, of which the filter, and PoseNoise, see only what
+/// changes from one to the next.
+template <CapacityProfile Limits>
+Mat6 Tracker<Limits>::TwistCovariance(const TwistFilter& filter) const noexcept {
+  constexpr float kAlike = 1.5F;
+  return kAlike * filter.twist_covariance() + twist_unobserved_;
+}
+
 /// Covariances of (origin's position, rotation) in camera axes.
 template <CapacityProfile Limits>
 typename Tracker<Limits>::PoseCovariance Tracker<Limits>::CovarianceOf(
-    const Aligned& aligned, const DepthFrame& frame, float inverse_depth_std_per_m) const noexcept {
+    const Aligned& aligned, const DepthFrame& frame) const noexcept {
   constexpr float kLongest_s = 0.6F;  // a turn may then be anything
   const float least_gradient_std = config_.registration.gradient_std_rad;
   RegistrationInformation information = aligned.information;
@@ -228,15 +239,18 @@ typename Tracker<Limits>::PoseCovariance Tracker<Limits>::CovarianceOf(
   const float since_s = Seconds(SpanNs(observed_ns_, frame.stamp_ns));
   const float unobserved_s = std::min(since_s, kLongest_s);
 
-  const float depth_m = aligned.center_c.z();
-  const PlacementScale placement{.pixel_m = depth_m / frame.camera.fx_px,
-                                 .depth_noise_m = inverse_depth_std_per_m * depth_m * depth_m};
+  const PlacementScale placement{
+      .pieces = aligned.generation,
+      .outline_m = outline_.std_px * aligned.center_c.z() / frame.camera.fx_px,
+      .lever_m = LeverOf(information)};
 
   PoseCovariance result;
   result.solved = uncertainty.solved;
-  result.white = config_.registration.white_noise_share * in_camera(change.covariance);
-  result.reported = in_camera(WithDrift(uncertainty.covariance, aligned.generation, placement,
-                                        LeverOf(information), config_.registration));
+  result.registered = change.covariance;
+  result.white = in_camera(pose_noise_.Of(change.covariance));
+  result.to_model = in_camera(pose_noise_.Of(uncertainty.covariance));
+  result.reported =
+      result.to_model + in_camera(DriftOf(uncertainty.covariance, placement, config_.registration));
   if (!uncertainty.IsComplete()) {
     result.twist_unobserved = in_camera(uncertainty.unobserved);
   } else if (observed_frames_ < kFramesUntilObserved && !monitor_.Doubts(frame.stamp_ns)) {

@@ -39,7 +39,6 @@ VARIANTS = (
     Variant("local plane alone: stiff prior", ("field.prior_gradient_std=0.01",)),
     Variant("length scale of one cell, 2 cm", ("field.length_scale_m=0.02",)),
     # Twist.
-    Variant("twist filter given a quarter of the pose covariance", ("registration.white_noise_share=0.25",)),
     Variant("twist from pose differences: any acceleration",
             ("twist.linear_jerk_psd=1e7", "twist.angular_jerk_psd=1e9")),
 )

@@ -139,11 +139,12 @@ class Scene {
     const ErodedMask interior(*mask_, config_.border_px);
     Counters counters;
     sampler_->Sample(depth, kCamera, interior, config_, *samples_, counters);
-    source_ = EdgeSampler<profiles::Micro>::Sample(depth, kCamera, *mask_, given_, *sampler_,
-                                                   config_, kLeastStd_px, scale_, edges_);
+    outline_ = EdgeSampler<profiles::Micro>::Sample(depth, kCamera, *mask_, given_, *sampler_,
+                                                    config_, kLeastStd_px, scale_, edges_);
     return edges_;
   }
-  [[nodiscard]] OutlineSource source() const { return source_; }
+  [[nodiscard]] OutlineSource source() const { return outline_.source; }
+  [[nodiscard]] float std_px() const { return outline_.std_px; }
   [[nodiscard]] OutlineScale& scale() { return scale_; }
   /// All edges are where the outline is.
   /// @param cuts_px Columns in which something else cuts the outline off.
@@ -155,6 +156,7 @@ class Scene {
       const float std_px = std::sqrt(edge.variance_m2) / PixelWidth(edge);
       EXPECT_GT(std_px, 0.999F * kLeastStd_px);
       EXPECT_LT(std_px, 1.3F * kLeastStd_px);
+      EXPECT_NEAR(std_px, outline_.std_px, 1e-3F);
       EXPECT_LT(std::abs(edge.outward.dot(edge.ray)), 1e-4F);
       EXPECT_GT(edge.outward.dot(edge.position_m - plate_.center_m), 0.0F);
       EXPECT_GT(std::abs(edge.normal.dot(plate_.rotation.col(2))), 0.9999F);
@@ -206,7 +208,7 @@ class Scene {
   std::unique_ptr<Sampler::Samples> samples_ = std::make_unique<Sampler::Samples>();
   Edges edges_;
   OutlineScale scale_;
-  OutlineSource source_ = OutlineSource::kDepth;
+  SampledOutline outline_;
 };
 
 /// Which of the four sides have edges on them.

@@ -12,8 +12,12 @@
 namespace disflow {
 namespace {
 
+constexpr float kOutline_m = 4e-4F;
 constexpr float kLever_m = 0.1F;
-constexpr PlacementScale kScale{.pixel_m = 1e-3F, .depth_noise_m = 2e-3F};
+
+PlacementScale Pieces(float pieces) {
+  return {.pieces = pieces, .outline_m = kOutline_m, .lever_m = kLever_m};
+}
 
 float Std(const Mat6& covariance, int i) { return std::sqrt(covariance(i, i)); }
 
@@ -21,37 +25,49 @@ float Std(const Mat6& covariance, int i) { return std::sqrt(covariance(i, i)); }
 TEST(Drift, GrowsWithThePiecesAndInAllDirections) {
   const Mat6 covariance = 1e-12F * Mat6::Identity();
   const RegistrationConfig config;
-  EXPECT_EQ(WithDrift(covariance, 0.0F, kScale, kLever_m, config), covariance);
-  Vec6 last = covariance.diagonal();
+  EXPECT_TRUE(DriftOf(covariance, Pieces(0.0F), config).isZero(0.0F));
+  Vec6 last = Vec6::Zero();
   for (const float pieces : {0.5F, 1.0F, 3.0F}) {
-    const Mat6 drifted = WithDrift(covariance, pieces, kScale, kLever_m, config);
-    EXPECT_GT((drifted.diagonal() - last).minCoeff(), 0.0F) << pieces;
-    last = drifted.diagonal();
+    const Vec6 drift = DriftOf(covariance, Pieces(pieces), config).diagonal();
+    EXPECT_GT((drift - last).minCoeff(), 0.0F) << pieces;
+    last = drift;
   }
 }
 
-TEST(Drift, OfOnePiece_IsAShareOfAPixelAndOfItsNoiseAtTheRadius) {
+TEST(Drift, OfOnePiece_IsThatOfOutlinesInItsPlace_AndOfThePosesNoiseInAll) {
   RegistrationConfig config;
-  config.drift_px = 0.4F;
-  config.drift_tilt = 0.2F;
-  const Mat6 drifted = WithDrift(Mat6::Zero(), 1.0F, kScale, kLever_m, config);
+  config.drift_outline = 2.0F;
+  config.drift_noise = 9.0F;
+  constexpr float kNoise = 1e-3F;
+  const Mat6 noise = kNoise * kNoise * Mat6::Identity();
+  const Mat6 drift = DriftOf(noise, Pieces(1.0F), config);
   for (int i = 0; i < 3; ++i) {
-    EXPECT_FLOAT_EQ(Std(drifted, i), 0.4e-3F);
-    EXPECT_FLOAT_EQ(Std(drifted, 3 + i), 0.2F * 2e-3F / kLever_m);
+    EXPECT_FLOAT_EQ(Std(drift, i), std::hypot(2.0F * kOutline_m, 3.0F * kNoise));
+    EXPECT_FLOAT_EQ(Std(drift, 3 + i), 3.0F * kNoise);
   }
   // Of independent pieces variances add up.
-  const Mat6 of_four = WithDrift(Mat6::Zero(), 4.0F, kScale, kLever_m, config);
-  EXPECT_FLOAT_EQ(Std(of_four, 0), 2.0F * Std(drifted, 0));
+  EXPECT_FLOAT_EQ(Std(DriftOf(noise, Pieces(4.0F), config), 0), 2.0F * Std(drift, 0));
+}
+
+TEST(Drift, WhatTheSensorIsOffByFromViewToView_IsInThePoseFromTheFirstViewOn) {
+  RegistrationConfig config;
+  config.depth_bias_m = 2e-3F;
+  const Mat6 first = DriftOf(Mat6::Zero(), Pieces(0.0F), config);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_FLOAT_EQ(Std(first, i), 2e-3F);
+    EXPECT_FLOAT_EQ(Std(first, 3 + i), 2e-3F / kLever_m);
+  }
+  EXPECT_GT(Std(DriftOf(Mat6::Zero(), Pieces(3.0F), config), 4), 1.9F * Std(first, 4));
 }
 
 TEST(Drift, WhatTheRegistrationKnowsBadly_StaysTheLargest) {
   Mat6 covariance = 1e-10F * Mat6::Identity();
   covariance(4, 4) = 0.04F;
   covariance(1, 4) = covariance(4, 1) = 1e-7F;
-  const Mat6 drifted = WithDrift(covariance, 2.0F, kScale, kLever_m, {});
-  EXPECT_GT(Std(drifted, 4), 0.2F);
-  EXPECT_EQ(drifted, Mat6(drifted.transpose()));
-  EXPECT_GE(drifted(1, 4), covariance(1, 4));
+  const Mat6 drift = DriftOf(covariance, Pieces(2.0F), {});
+  EXPECT_GT(Std(drift, 4), 0.2F);
+  EXPECT_EQ(drift, Mat6(drift.transpose()));
+  EXPECT_GE(drift(1, 4), covariance(1, 4));
 }
 
 TEST(Lever, IsTheRootMeanSquareDistance_WhicheverWayTheGradientsPoint) {

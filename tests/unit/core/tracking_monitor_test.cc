@@ -20,7 +20,9 @@ Evidence Good() {
           .inliers = 450,
           .points = 500,
           .position_std_m = 0.0005F,
-          .rotation_std_rad = 0.005F};
+          .rotation_std_rad = 0.005F,
+          .position_to_model_std_m = 0.0003F,
+          .rotation_to_model_std_rad = 0.003F};
 }
 /// Something is there, and the model does not fit it.
 Evidence InVain() {
@@ -227,7 +229,10 @@ TEST_F(TrackingMonitorTest, PoseThatMayBeAny_IsRecognisedOnlyBeyondDoubt) {
   EXPECT_FALSE(monitor_.Recognises(With([](Evidence& e) { e.conflict = 0.04F; })));
   EXPECT_FALSE(monitor_.Recognises(With([](Evidence& e) { e.visible = 0.3F; })));
   EXPECT_FALSE(monitor_.Recognises(With([](Evidence& e) { e.inliers = 200; })));
-  EXPECT_FALSE(monitor_.Recognises(With([](Evidence& e) { e.rotation_std_rad = 0.5F; })))
+  EXPECT_FALSE(monitor_.Recognises(With([](Evidence& e) { e.rotation_to_model_std_rad = 0.5F; })));
+  EXPECT_FALSE(monitor_.Recognises(With([](Evidence& e) { e.position_to_model_std_m = 0.01F; })));
+  EXPECT_TRUE(monitor_.Recognises(With([](Evidence& e) { e.rotation_std_rad = 0.5F; })))
+      << "the model has drifted, but this is it"
       << "a mug whose handle is hidden";
 }
 

@@ -24,13 +24,12 @@ class EdgeSampler {
   /// @param given The user's mask, if there is one.
   /// @param least_std_px Noise of the best outline.
   /// @param scale What is known of outlines beyond how ragged they are.
-  /// @return Whose outline the edges are on.
   template <class Mask>
-  [[nodiscard]] static OutlineSource Sample(const DepthReader& depth, const PinholeCamera& camera,
-                                            const Mask& object, const MaskView& given,
-                                            const SurfaceSampler<Limits>& surfaces,
-                                            const SamplerConfig& config, float least_std_px,
-                                            const OutlineScale& scale, Edges& edges) noexcept {
+  [[nodiscard]] static SampledOutline Sample(const DepthReader& depth, const PinholeCamera& camera,
+                                             const Mask& object, const MaskView& given,
+                                             const SurfaceSampler<Limits>& surfaces,
+                                             const SamplerConfig& config, float least_std_px,
+                                             const OutlineScale& scale, Edges& edges) noexcept {
     edges.clear();
     Outline outline;
     outline.Find(object, given);
@@ -40,7 +39,7 @@ class EdgeSampler {
       if (MakeEdge(depth, camera, outline, point, surfaces, config, std_px, edge))
         (void)edges.push_back(edge);
     }
-    return outline.source();
+    return {outline.source(), std_px};
   }
 
  private:

@@ -10,6 +10,12 @@ namespace disflow {
 /// What shows where the object ends.
 enum class OutlineSource : std::uint8_t { kDepth, kMask };
 
+/// The outline that a frame's edges were taken from.
+struct SampledOutline {
+  OutlineSource source = OutlineSource::kDepth;
+  float std_px = 0.0F;  ///< How far it is off, as far as that is known.
+};
+
 /// How many times farther off outlines are than their raggedness tells. A camera that matches
 /// windows of pixels moves whole stretches of an outline alike, which no look at the outline shows;
 /// how far a frame's edges are off the model's does. Of depth and of masks apart: they err

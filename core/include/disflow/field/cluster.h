@@ -28,7 +28,8 @@ struct Cluster {
   float dirtiness;           ///< What changed since the last training, in observations.
   std::uint32_t last_frame;  ///< When it was last observed.
   /// How many pieces of surface lie between this one and the first view, each registered to the one
-  /// before: errors of the pose add up along that chain.
+  /// before: errors of the pose add up along that chain. Each counts as often as the variance of
+  /// its pose was that which the registration stated, see PoseNoise.
   float generation;
 
   SampleList<kMaxSamples> samples;

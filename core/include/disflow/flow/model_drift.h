@@ -7,26 +7,27 @@
 
 namespace disflow {
 
-/// How exactly a camera tells where surface belongs that comes into view.
-struct PlacementScale {
-  float pixel_m = 0.0F;        ///< Width of a pixel at the object's distance.
-  float depth_noise_m = 0.0F;  ///< Of one pixel.
-};
-
 /// Root mean square distance of what was registered from the centre of rotation, weighted as the
 /// registration weighted it; at least a millimetre.
 [[nodiscard]] float LeverOf(const RegistrationInformation& information) noexcept;
 
-/// Covariance of (position of the centre, rotation) with the drift of the model.
+/// How far off surface is built into the model, at the object.
+struct PlacementScale {
+  /// Pieces of surface that the model has grown by since the first view, each counted as often as
+  /// its pose was noisier than its registration said; see Cluster::generation.
+  float pieces = 0.0F;
+  float outline_m = 0.0F;  ///< How far outlines are off.
+  float lever_m = 0.0F;    ///< See LeverOf().
+};
+
+/// Covariance of (position of the centre, rotation) that comes of where the model's surface is.
 ///
 /// Surface that comes into view is built into the model with the error of its pose, and later poses
 /// are registered to it. All of a face errs alike, so that the residuals do not show it. While a
-/// face comes into view the pose hangs on outlines, which are off by a part of a pixel whatever
-/// their number; which way the new face looks is told by its depth.
+/// face comes into view the pose hangs on outlines, which err alike, too, whatever their number.
+/// What the sensor's depth is off by from view to view is in all poses and in all surface.
 /// @param covariance Of the registration alone.
-/// @param pieces Pieces of surface that the model has grown by since the first view.
-/// @param lever_m See LeverOf().
-[[nodiscard]] Mat6 WithDrift(const Mat6& covariance, float pieces, const PlacementScale& scale,
-                             float lever_m, const RegistrationConfig& config) noexcept;
+[[nodiscard]] Mat6 DriftOf(const Mat6& covariance, const PlacementScale& scale,
+                           const RegistrationConfig& config) noexcept;
 
 }  // namespace disflow

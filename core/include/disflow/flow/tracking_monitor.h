@@ -21,6 +21,9 @@ class TrackingMonitor {
     int points = 0;               ///< Samples that were registered.
     float position_std_m = 0.0F;  ///< In the worst direction, as reported.
     float rotation_std_rad = 0.0F;
+    /// The same relative to the model, wherever that is.
+    float position_to_model_std_m = 0.0F;
+    float rotation_to_model_std_rad = 0.0F;
   };
 
   void Start(const MonitorConfig& config, StampNs stamp_ns) noexcept;

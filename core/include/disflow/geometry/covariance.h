@@ -20,6 +20,10 @@ namespace disflow {
 [[nodiscard]] Mat6 CovarianceAtPoint(const Mat6& covariance, const Mat3& rotation,
                                      const Vec3& to_point_m) noexcept;
 
+/// Standard deviations along the axis along which they are largest.
+[[nodiscard]] float LargestPositionStd(const Mat6& covariance) noexcept;
+[[nodiscard]] float LargestRotationStd(const Mat6& covariance) noexcept;
+
 /// The covariance as far as float can tell it: variances a million times smaller than the largest
 /// are lost in its rounding, which could make the matrix indefinite. They are raised to that.
 /// @param beside Variances of what it will be added to.
