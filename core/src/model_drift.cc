@@ -14,15 +14,19 @@ float LeverOf(const RegistrationInformation& information) noexcept {
   return std::fmax(std::sqrt(moment_m2 / weight), kLeast_m);
 }
 
+float PieceVariance(float outline_m, const RegistrationConfig& config) noexcept {
+  const float place_m = config.drift_outline * outline_m;
+  return place_m * place_m;
+}
+
 Mat6 DriftOf(const Mat6& covariance, const PlacementScale& scale,
              const RegistrationConfig& config) noexcept {
-  const float of_outlines_m = config.drift_outline * scale.outline_m;
   const float bias_m = config.depth_bias_m;
   const float bias_rad = bias_m / scale.lever_m;
   const float views = 1.0F + scale.pieces;
   Mat6 result = scale.pieces * config.drift_noise * covariance;
   result.diagonal().head<3>().array() +=
-      scale.pieces * of_outlines_m * of_outlines_m + views * bias_m * bias_m;
+      scale.pieces * PieceVariance(scale.outline_m, config) + views * bias_m * bias_m;
   result.diagonal().tail<3>().array() += views * bias_rad * bias_rad;
   return result;
 }

@@ -171,6 +171,31 @@ TEST(SurfaceExtractor, StandardDeviation_GrowsBeyondTheData) {
   EXPECT_GT(rim_m / rim_count, 1.5 * middle_m / middle_count);
 }
 
+TEST(SurfaceExtractor, StandardDeviation_HasWhatEachPieceIsMisplacedBySinceTheFirstView) {
+  constexpr float kPieces = 2.0F;
+  constexpr float kPiece_m = 1e-3F;
+  const auto owned = std::make_unique<EdgeField>();
+  EdgeField& field = *owned;
+  SurfaceOptions options;
+  options.resolution_m = 0.005F;
+  for (const float pieces : {0.0F, kPieces}) {
+    field.Start({});
+    field.SetGeneration(pieces);
+    Counters counters;
+    Fuse(OddSphere(), Noisy(), 1, field, counters);
+    MeshCollector placed;
+    Extract(field, options, placed);
+    field.SetPieceVariance(kPiece_m * kPiece_m);
+    MeshCollector misplaced;
+    Extract(field, options, misplaced);
+    ASSERT_EQ(placed.vertices.size(), misplaced.vertices.size());
+    for (std::size_t i = 0; i < placed.vertices.size(); ++i) {
+      EXPECT_NEAR(misplaced.vertices[i].std_m,
+                  std::hypot(placed.vertices[i].std_m, std::sqrt(pieces) * kPiece_m), 1e-6F);
+    }
+  }
+}
+
 TEST(SurfaceExtractor, SameModel_GivesTheSameBits) {
   const auto field = MakeModel(OddCylinder(), Noisy());
   MeshCollector first;

@@ -112,7 +112,8 @@ class Tracker {
     Mat6 reported = Mat6::Zero();    ///< With the drift of the model since its first view.
     /// Of the twist, along what no surface tells.
     Mat6 twist_unobserved = Mat6::Zero();
-    bool complete = true;  ///< The frame tells of all directions.
+    bool complete = true;    ///< The frame tells of all directions.
+    float outline_m = 0.0F;  ///< How far outlines are off, at the object.
   };
 
   void Begin(const DepthFrame& frame, Estimate& estimate) noexcept;

@@ -49,12 +49,17 @@ class DistanceField {
     config_ = config;
     hyper_ = {config.length_scale_m, config.prior_gradient_std};
     generation_ = 0.0F;
+    piece_variance_m2_ = 0.0F;
     store_.Start(config.cell_size_m, config.crease_cos);
     has_bounds_ = false;
   }
 
   /// Of the surface that is found from now on.
   void SetGeneration(float generation) noexcept { generation_ = generation; }
+  /// How far off a piece of surface is built into the model beside the noise of its samples and of
+  /// its pose. Of all surface: as far as is known by now.
+  void SetPieceVariance(float variance_m2) noexcept { piece_variance_m2_ = variance_m2; }
+  [[nodiscard]] float piece_variance_m2() const noexcept { return piece_variance_m2_; }
 
   [[nodiscard]] const Store& store() const noexcept { return store_; }
   [[nodiscard]] const FieldConfig& config() const noexcept { return config_; }
@@ -240,6 +245,7 @@ class DistanceField {
   FieldConfig config_{};
   GpHyperparameters hyper_{};
   float generation_ = 0.0F;
+  float piece_variance_m2_ = 0.0F;
   Vec3 bounds_min_m_ = Vec3::Zero();
   Vec3 bounds_max_m_ = Vec3::Zero();
   bool has_bounds_ = false;

@@ -41,7 +41,9 @@ class PosteriorVariance {
     const float open_m2 =
         Factorised(handle) ? beyond * beyond * Posterior(handle, x_m) : OfSlope(nearest_m);
     const auto& cluster = field_.store()[handle];
-    return open_m2 + (kAlike + kChain * cluster.generation) * SampleVariance(cluster.samples, x_m);
+    const float pieces_m2 = cluster.generation * field_.piece_variance_m2();
+    return open_m2 + pieces_m2 +
+           (kAlike + kChain * cluster.generation) * SampleVariance(cluster.samples, x_m);
   }
 
   /// What the prior's uncertain slope makes of a distance over which nothing was seen.

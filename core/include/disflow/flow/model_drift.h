@@ -20,6 +20,9 @@ struct PlacementScale {
   float lever_m = 0.0F;    ///< See LeverOf().
 };
 
+/// Variance of the place of one piece of surface that is due to outlines [m^2].
+[[nodiscard]] float PieceVariance(float outline_m, const RegistrationConfig& config) noexcept;
+
 /// Covariance of (position of the centre, rotation) that comes of where the model's surface is.
 ///
 /// Surface that comes into view is built into the model with the error of its pose, and later poses
