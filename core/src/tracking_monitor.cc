@@ -10,11 +10,11 @@ namespace {
 // Standard deviations at which a pose is worth half: a gripper's tolerance.
 constexpr float kPositionStdHalf_m = 0.005F;
 constexpr float kRotationStdHalf_rad = 0.05F;
-// Inliers of a pose that was followed. Of what is usual for this object and sensor, where that is
-// little: what a sensor makes of the noise that is stated for it decides how many there are.
 constexpr float kMinInlierShare = 0.15F;
+// Of what is usual for this object and sensor: of a pose that was followed and is as usual in all
+// else, since how many residuals there are within their noise is decided by how well that is known;
+// and after a loss.
 constexpr float kMinFollowedShare = 0.33F;
-// Likewise, after a loss.
 constexpr float kMinRecoveredShare = 0.55F;
 // Likewise, for a pose that may be any; of other poses of mugs and bottles those that come nearest
 // reach 0.94 of the usual score, or contradict the model by 0.03 more than usual in one of two
@@ -48,18 +48,22 @@ void TrackingMonitor::Start(const MonitorConfig& config, StampNs stamp_ns) noexc
 
 bool TrackingMonitor::Accepts(const Evidence& evidence, StampNs stamp_ns) const noexcept {
   if (!evidence.registered) return false;
-  const float inlier_share = InlierShare(evidence);
-  if (!Doubts(stamp_ns)) {
-    return evidence.score >= config_.lost_score && evidence.conflict <= config_.lost_conflict &&
-           inlier_share >= std::min(kMinInlierShare, kMinFollowedShare * usual_.inlier_share);
-  }
-  return Explains(evidence) && evidence.conflict <= config_.degraded_conflict + usual_.conflict;
+  const bool usual_conflict = evidence.conflict <= config_.degraded_conflict + usual_.conflict;
+  if (Doubts(stamp_ns)) return Explains(evidence) && usual_conflict;
+  const bool sound = evidence.score >= config_.lost_score &&
+                     evidence.conflict <= config_.lost_conflict &&
+                     InlierShare(evidence) >= kMinInlierShare;
+  return sound || (ExplainsUsually(evidence, kMinFollowedShare) && usual_conflict);
 }
 
 bool TrackingMonitor::Explains(const Evidence& evidence) const noexcept {
-  // A noisy sensor never shows what a good one does: the bar is what was usual before the loss.
+  return ExplainsUsually(evidence, kMinRecoveredShare);
+}
+
+/// A noisy sensor never shows what a good one does: the bar is what was usual before.
+bool TrackingMonitor::ExplainsUsually(const Evidence& evidence, float inliers) const noexcept {
   return evidence.score >= config_.recovered_score * usual_.score &&
-         InlierShare(evidence) >= kMinRecoveredShare * usual_.inlier_share;
+         InlierShare(evidence) >= inliers * usual_.inlier_share;
 }
 
 void TrackingMonitor::Usual::Follow(const Evidence& evidence) noexcept {

@@ -86,6 +86,29 @@ TEST_F(TrackingMonitorTest, FollowedPose_IsRefusedOnLess) {
   EXPECT_FALSE(Accepts(With([](Evidence& e) { e.inliers = e.points = 0; })));
 }
 
+TEST_F(TrackingMonitorTest, FollowedPoseOfANoisySensor_MayHaveFewerInliers_IfAllElseIsAsUsual) {
+  // Its noise is worse than it is taken for: a quarter of the points are inliers at best.
+  const Evidence usual = With([](Evidence& e) {
+    e.score = 0.8F;
+    e.inliers = 125;
+  });
+  Offer(usual, 100);
+  const Evidence few = With([](Evidence& e) {
+    e.score = 0.75F;
+    e.inliers = 60;
+  });
+  EXPECT_TRUE(Accepts(few));
+  Evidence spoilt = few;
+  spoilt.score = 0.5F;
+  EXPECT_FALSE(Accepts(spoilt));
+  spoilt = few;
+  spoilt.conflict = 0.2F;
+  EXPECT_FALSE(Accepts(spoilt));
+  spoilt = few;
+  spoilt.inliers = 35;
+  EXPECT_FALSE(Accepts(spoilt));
+}
+
 TEST_F(TrackingMonitorTest, SearchedPose_NeedsMore) {
   Track();
   const Evidence weak_score = With([](Evidence& e) { e.score = 0.70F; });

@@ -69,6 +69,7 @@ class TrackingMonitor {
     void Follow(const Evidence& evidence) noexcept;
   };
 
+  [[nodiscard]] bool ExplainsUsually(const Evidence& evidence, float inliers) const noexcept;
   [[nodiscard]] bool Trusts(const Evidence& evidence) const noexcept;
   [[nodiscard]] TrackingState AfterRegistered(const Evidence& evidence) const noexcept;
   [[nodiscard]] std::uint8_t Grade(const Evidence& evidence) const noexcept;
