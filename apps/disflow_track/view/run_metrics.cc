@@ -2,10 +2,10 @@
 #include "view/run_metrics.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <utility>
 
+#include "disflow/geometry/covariance.h"
 #include "view/counter_names.h"
 
 namespace disflow::apps {
@@ -43,10 +43,6 @@ std::string Label(const char* name, const std::string& value) {
     text += c == '\n' ? ' ' : c;
   }
   return text + "\"";
-}
-
-double LargestPositionStd_m(const Estimate& estimate) {
-  return std::sqrt(static_cast<double>(estimate.pose_covariance.diagonal().head<3>().maxCoeff()));
 }
 
 }  // namespace
@@ -113,7 +109,9 @@ std::string RunMetrics::Text() const {
   of_each("quality", "gauge", "0 is not usable, 100 is best",
           [](const Object& o) { return o.newest.estimate.quality; });
   of_each("position_std_meters", "gauge", "Largest standard deviation of the position",
-          [](const Object& o) { return LargestPositionStd_m(o.newest.estimate); });
+          [](const Object& o) {
+            return static_cast<double>(LargestPositionStd(o.newest.estimate.pose_covariance));
+          });
   of_each("restarts_total", "counter", "How often the object was begun anew",
           [](const Object& o) { return o.restarts; });
   of_each("results_not_seen_total", "counter", "Results that came too fast to be counted here",

@@ -144,7 +144,6 @@ class Scene {
     return edges_;
   }
   [[nodiscard]] OutlineSource source() const { return outline_.source; }
-  [[nodiscard]] float std_px() const { return outline_.std_px; }
   [[nodiscard]] OutlineScale& scale() { return scale_; }
   /// All edges are where the outline is.
   /// @param cuts_px Columns in which something else cuts the outline off.
