@@ -53,6 +53,9 @@ constexpr std::array kExplanations{
     Explanation{"occluder", "What passes in front of the object [none]"},
     Explanation{"support", "What the object stands on [none]"},
     Explanation{"hide", "Object that is not there from 1 to 2 s, from 1 on [0: none]"},
+    Explanation{"edge_mm", "Radius of the edges of rounded-box and flat-box [0: 4 and 2 mm]"},
+    Explanation{"bulge_mm", "By which the faces of boxes stand out in the middle [0]"},
+    Explanation{"uneven_mm", "Standard deviation of surfaces from the drawn ones [0]"},
     Explanation{"drop", "Share of images that are lost [0]"},
     Explanation{"repeat", "Share of images that are the one before again [0]"},
     Explanation{"jitter_ms", "Stamps are off by up to this, ms [0]"},
@@ -206,7 +209,8 @@ int main(int argc, char** argv) {
   app.add_option("OUT_DIR", arguments.out_dir, "Folder to write; created if it does not exist")
       ->required();
   app.add_option("--object", arguments.object,
-                 "box, bottle, can, doughnut, rounded-box, flat-box, mug or FILE.obj, or several "
+                 "box, bottle, can, doughnut, rounded-box, flat-box, mug, bowl, tube, superellipsoid, "
+                 "screwdriver, bracket, spray-bottle or FILE.obj, or several "
                  "joined by +, the nearest first [box]");
   for (const auto& option : disflow::host::ListSimulationOptions()) {
     if (option.key == kMaskKey) continue;

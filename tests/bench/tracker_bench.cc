@@ -11,6 +11,7 @@
 #include <memory>
 #include <vector>
 
+#include "disflow/host/simulated_shapes.h"
 #include "disflow/host/simulation.h"
 #include "disflow/tracker.h"
 

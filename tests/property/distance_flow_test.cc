@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "disflow/host/simulated_shapes.h"
 #include "disflow/host/simulation.h"
 
 namespace disflow::testing {

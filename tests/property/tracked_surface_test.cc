@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "disflow/depth/depth_reader.h"
+#include "disflow/host/simulated_shapes.h"
 #include "disflow/host/simulation.h"
 #include "disflow/surface_extractor.h"
 #include "disflow/tracker.h"

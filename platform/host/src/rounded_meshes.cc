@@ -22,7 +22,27 @@ struct QuarterStep {
         sine(k == 0 ? 0.0 : std::sin(0.5 * pi * k / kFacetsPerQuarter)) {}
 };
 
-/// A sphere cut into eight and pulled apart: flat faces, cylinders along edges, balls at corners.
+/// A handle: an elliptic tube along half an ellipse in the plane y = 0, with flat ends.
+TriangleMesh MakeHandle(double start_m, double reach_m, double half_height_m) {
+  constexpr double kHalfWidth_m = 0.006;
+  constexpr double kHalfThickness_m = 0.0035;
+  constexpr int kSteps = 48;
+  constexpr int kRows = kSteps + 3;
+  return MeshTube(48, kRows, false, [&](double angle, int row) {
+    const int step = std::min(std::max(row - 1, 0), kSteps);
+    const double t = pi * step / kSteps;
+    const Vec3d centre(start_m + reach_m * std::sin(t), 0.0, -half_height_m * std::cos(t));
+    if (row == 0 || row == kRows - 1) return centre;
+    const Vec3d along = Vec3d(reach_m * std::cos(t), 0.0, half_height_m * std::sin(t)).normalized();
+    const Vec3d sideways = Vec3d::UnitY();
+    return Vec3d(centre + kHalfWidth_m * std::cos(angle) * sideways +
+                 kHalfThickness_m * std::sin(angle) * along.cross(sideways));
+  });
+}
+
+}  // namespace
+
+// A sphere cut into eight and pulled apart: flat faces, cylinders along edges, balls at corners.
 TriangleMesh MakeRoundedCuboid(const Vec3d& half_m, double radius_m) {
   constexpr int kPerQuarter = kFacetsPerQuarter + 1;
   constexpr int kColumns = 4 * kPerQuarter;
@@ -48,29 +68,13 @@ TriangleMesh MakeRoundedCuboid(const Vec3d& half_m, double radius_m) {
   });
 }
 
-/// A handle: an elliptic tube along half an ellipse in the plane y = 0, with flat ends.
-TriangleMesh MakeHandle(double start_m, double reach_m, double half_height_m) {
-  constexpr double kHalfWidth_m = 0.006;
-  constexpr double kHalfThickness_m = 0.0035;
-  constexpr int kSteps = 48;
-  constexpr int kRows = kSteps + 3;
-  return MeshTube(48, kRows, false, [&](double angle, int row) {
-    const int step = std::min(std::max(row - 1, 0), kSteps);
-    const double t = pi * step / kSteps;
-    const Vec3d centre(start_m + reach_m * std::sin(t), 0.0, -half_height_m * std::cos(t));
-    if (row == 0 || row == kRows - 1) return centre;
-    const Vec3d along = Vec3d(reach_m * std::cos(t), 0.0, half_height_m * std::sin(t)).normalized();
-    const Vec3d sideways = Vec3d::UnitY();
-    return Vec3d(centre + kHalfWidth_m * std::cos(angle) * sideways +
-                 kHalfThickness_m * std::sin(angle) * along.cross(sideways));
-  });
+TriangleMesh MakeRoundedBox(double edge_radius_m) {
+  return MakeRoundedCuboid(0.5 * Vec3d(0.160, 0.070, 0.200), edge_radius_m);
 }
 
-}  // namespace
-
-TriangleMesh MakeRoundedBox() { return MakeRoundedCuboid(0.5 * Vec3d(0.160, 0.070, 0.200), 0.004); }
-
-TriangleMesh MakeFlatBox() { return MakeRoundedCuboid(0.5 * Vec3d(0.090, 0.075, 0.030), 0.002); }
+TriangleMesh MakeFlatBox(double edge_radius_m) {
+  return MakeRoundedCuboid(0.5 * Vec3d(0.090, 0.075, 0.030), edge_radius_m);
+}
 
 TriangleMesh MakeMug() {
   constexpr double kRadius_m = 0.042;
@@ -90,11 +94,7 @@ TriangleMesh MakeMug() {
   TriangleMesh mesh = MeshProfile(profile, 160);
   // The handle's ends are in the middle of the wall.
   const TriangleMesh handle = MakeHandle(kRadius_m - 0.5 * kWall_m, 0.031, 0.027);
-  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-  for (const Vec3d& vertex : handle.vertices)
-    mesh.vertices.emplace_back(vertex + Vec3d(0.0, 0.0, 0.5 * kHeight_m));
-  for (const auto& t : handle.triangles)
-    mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  Append(handle, Vec3d(0.0, 0.0, 0.5 * kHeight_m), mesh);
   MoveCentreToOrigin(mesh);
   return mesh;
 }

@@ -7,7 +7,6 @@
 #include <numbers>
 #include <utility>
 
-#include "disflow/host/object_meshes.h"
 #include "disflow/host/random.h"
 #include "smooth_motion.h"
 
@@ -19,8 +18,9 @@ Mat3d StartRotation(ObjectKind object, const TriangleMesh& mesh, std::uint64_t s
   Mat3d rotation;
   rotation << 1, 0, 0, 0, 0, -1, 0, 1, 0;  // +z up: the camera's y axis points down
   double tilt_rad = 25.0 * kRadPerDeg;
-  if (object == ObjectKind::kDoughnut || object == ObjectKind::kFlatBox)
-    tilt_rad = 50.0 * kRadPerDeg;
+  const bool is_flat = object == ObjectKind::kDoughnut || object == ObjectKind::kFlatBox ||
+                       object == ObjectKind::kBowl || object == ObjectKind::kBracket;
+  if (is_flat) tilt_rad = 50.0 * kRadPerDeg;
   if (object == ObjectKind::kObjFile) {
     Vec3d extent = Vec3d::Zero();
     for (const Vec3d& vertex : mesh.vertices) extent = extent.cwiseMax(vertex.cwiseAbs());
@@ -217,28 +217,6 @@ DepthView Simulation::DepthToDeliver() {
 MaskView Simulation::ViewOf(std::span<const std::uint8_t> mask) const {
   return {mask.empty() ? nullptr : mask.data(), options_.width_px, options_.height_px,
           options_.width_px};
-}
-
-TriangleMesh MakeObjectMesh(ObjectKind object) {
-  switch (object) {
-    case ObjectKind::kBox:
-      return MakeCrackerBox();
-    case ObjectKind::kBottle:
-      return MakeMustardBottle();
-    case ObjectKind::kCan:
-      return MakeCan();
-    case ObjectKind::kDoughnut:
-      return MakeDoughnut();
-    case ObjectKind::kRoundedBox:
-      return MakeRoundedBox();
-    case ObjectKind::kFlatBox:
-      return MakeFlatBox();
-    case ObjectKind::kMug:
-      return MakeMug();
-    case ObjectKind::kObjFile:
-      break;
-  }
-  return {};
 }
 
 }  // namespace disflow::host

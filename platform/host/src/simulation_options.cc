@@ -18,7 +18,13 @@ constexpr std::array kObjects{Choice<ObjectKind>{"box", ObjectKind::kBox},
                               Choice<ObjectKind>{"doughnut", ObjectKind::kDoughnut},
                               Choice<ObjectKind>{"rounded-box", ObjectKind::kRoundedBox},
                               Choice<ObjectKind>{"flat-box", ObjectKind::kFlatBox},
-                              Choice<ObjectKind>{"mug", ObjectKind::kMug}};
+                              Choice<ObjectKind>{"mug", ObjectKind::kMug},
+                              Choice<ObjectKind>{"bowl", ObjectKind::kBowl},
+                              Choice<ObjectKind>{"tube", ObjectKind::kTube},
+                              Choice<ObjectKind>{"superellipsoid", ObjectKind::kSuperellipsoid},
+                              Choice<ObjectKind>{"screwdriver", ObjectKind::kScrewdriver},
+                              Choice<ObjectKind>{"bracket", ObjectKind::kBracket},
+                              Choice<ObjectKind>{"spray-bottle", ObjectKind::kSprayBottle}};
 constexpr std::array kMotions{Choice<MotionKind>{"static", MotionKind::kStatic},
                               Choice<MotionKind>{"moderate", MotionKind::kModerate},
                               Choice<MotionKind>{"fast", MotionKind::kFast},
@@ -60,6 +66,9 @@ constexpr Range<double> kShare{0.0, 0.9};
 constexpr Range<double> kJitter{0.0, 1000.0};
 constexpr Range<int> kDelay{0, 30};
 constexpr Range<int> kGrow{-40, 40};
+constexpr Range<double> kEdge{0.0, 14.0};
+constexpr Range<double> kBulge{0.0, 3.0};
+constexpr Range<double> kUneven{0.0, 2.0};
 constexpr Range<int> kHide{0, static_cast<int>(kMaxSimulatedObjects)};
 
 constexpr std::string_view kObjPrefix = "obj:";
@@ -133,6 +142,9 @@ constexpr std::array kOptions{ChoiceOption<&Options::motion, kMotions>("motion")
                               ChoiceOption<&Options::occluder, kOccluders>("occluder"),
                               ChoiceOption<&Options::support, kSupports>("support"),
                               NumberOption<&Options::hide, kHide>("hide"),
+                              NumberOption<&Options::edge_mm, kEdge>("edge_mm"),
+                              NumberOption<&Options::bulge_mm, kBulge>("bulge_mm"),
+                              NumberOption<&Options::uneven_mm, kUneven>("uneven_mm"),
                               NumberOption<&Options::drop, kShare>("drop"),
                               NumberOption<&Options::repeat, kShare>("repeat"),
                               NumberOption<&Options::jitter_ms, kJitter>("jitter_ms"),

@@ -26,6 +26,13 @@ void MoveCentreToOrigin(TriangleMesh& mesh) {
   for (Vec3d& vertex : mesh.vertices) vertex -= centre;
 }
 
+void Append(const TriangleMesh& part, const Vec3d& at_m, TriangleMesh& mesh) {
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  for (const Vec3d& vertex : part.vertices) mesh.vertices.push_back(Vec3d(vertex + at_m));
+  for (const auto& t : part.triangles)
+    mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+}
+
 std::vector<Vec3d> SampleSurface(const TriangleMesh& mesh, int count) {
   std::vector<double> area_until;  // sum of the areas up to and including a triangle
   double area = 0.0;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "disflow/host/simulated_shapes.h"
 #include "disflow/host/simulation.h"
 
 namespace disflow::test {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "disflow/host/simulated_shapes.h"
 #include "icp_tracker.h"
 
 #include <gtest/gtest.h>

@@ -8,6 +8,7 @@
 #include "child_process.h"
 #include "disflow/host/object_meshes.h"
 #include "disflow/host/png_image.h"
+#include "disflow/host/simulated_shapes.h"
 #include "disflow/host/simulation.h"
 #include "evaluation.h"
 #include "scratch_folder.h"

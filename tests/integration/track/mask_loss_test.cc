@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "child_process.h"
+#include "disflow/host/simulated_shapes.h"
 #include "disflow/host/simulation.h"
 #include "endless_run.h"
 #include "estimate_csv.h"

@@ -11,6 +11,7 @@
 #include "disflow/hal/camera_pose_history.h"
 #include "disflow/hal/mavlink/frame_decoder.h"
 #include "disflow/hal/mavlink/messages.h"
+#include "disflow/host/simulated_shapes.h"
 #include "disflow/host/simulation.h"
 #include "disflow/posix/mask_stream.h"
 #include "loopback_port.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include "disflow/host/simulated_shapes.h"
 #include "tracked_sequence.h"
 
 namespace disflow::testing {

@@ -4,6 +4,7 @@
 #include <array>
 #include <memory>
 
+#include "disflow/host/simulated_shapes.h"
 #include "disflow/host/simulation.h"
 #include "disflow/surface_extractor.h"
 #include "disflow/tracker_group.h"

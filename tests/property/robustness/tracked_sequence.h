@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "disflow/host/simulated_shapes.h"
 #include "disflow/host/simulation.h"
 #include "disflow/tracker.h"
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "disflow/host/motion.h"
+#include "disflow/host/simulated_shapes.h"
 #include "disflow/host/simulation.h"
 #include "disflow/host/touching_hand.h"
 

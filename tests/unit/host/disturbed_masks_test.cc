@@ -5,6 +5,7 @@
 #include <cstring>
 #include <vector>
 
+#include "disflow/host/simulated_shapes.h"
 #include "disflow/host/simulation.h"
 
 /// @file

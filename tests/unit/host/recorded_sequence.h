@@ -12,6 +12,7 @@
 
 #include "disflow/host/replay_sensor.h"
 #include "disflow/host/sequence_writer.h"
+#include "disflow/host/simulated_shapes.h"
 #include "disflow/host/simulation.h"
 #include "scratch_dir.h"
 

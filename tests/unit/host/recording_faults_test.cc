@@ -8,6 +8,7 @@
 #include <csignal>
 #include <limits>
 
+#include "disflow/host/simulated_shapes.h"
 #include "recorded_sequence.h"
 
 // The linker leads every write() of the recorder here (--wrap): a disk that is full after so many

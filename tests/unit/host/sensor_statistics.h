@@ -8,6 +8,7 @@
 #include <cstring>
 #include <vector>
 
+#include "disflow/host/simulated_shapes.h"
 #include "disflow/host/simulation.h"
 
 namespace disflow::host {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "disflow/host/png_image.h"
+#include "disflow/host/simulated_shapes.h"
 #include "recorded_sequence.h"
 
 namespace disflow::host {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstring>
 
+#include "disflow/host/simulated_shapes.h"
 #include "disflow/host/simulation.h"
 
 namespace disflow::host {

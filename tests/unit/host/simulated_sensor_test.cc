@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "disflow/host/simulated_sensor.h"
+#include "disflow/host/simulated_shapes.h"
 
 #include <gtest/gtest.h>
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "disflow/host/object_meshes.h"
+#include "disflow/host/simulated_shapes.h"
 #include "disflow/host/simulation.h"
 
 namespace disflow::host {

@@ -18,12 +18,28 @@ namespace disflow::host {
 [[nodiscard]] TriangleMesh MakeCan();
 /// Plain torus of 0.12 m outer diameter and 0.04 m thickness.
 [[nodiscard]] TriangleMesh MakeDoughnut();
-/// Box 0.16 x 0.07 x 0.2 m whose edges and corners are rounded by 4 mm, as of scanned boxes.
-[[nodiscard]] TriangleMesh MakeRoundedBox();
-/// Flat box 0.09 x 0.075 x 0.03 m, rounded by 2 mm.
-[[nodiscard]] TriangleMesh MakeFlatBox();
+/// Box whose edges and corners are rounded, by less than half of any side.
+[[nodiscard]] TriangleMesh MakeRoundedCuboid(const Vec3d& half_m, double radius_m);
+inline constexpr double kRoundedBoxEdge_m = 0.004;
+inline constexpr double kFlatBoxEdge_m = 0.002;
+/// Box 0.16 x 0.07 x 0.2 m whose edges and corners are rounded, as of scanned boxes.
+[[nodiscard]] TriangleMesh MakeRoundedBox(double edge_radius_m = kRoundedBoxEdge_m);
+/// Flat box 0.09 x 0.075 x 0.03 m, rounded.
+[[nodiscard]] TriangleMesh MakeFlatBox(double edge_radius_m = kFlatBoxEdge_m);
 /// Mug of 84 mm diameter and 95 mm height, hollow, with a handle along +x.
 [[nodiscard]] TriangleMesh MakeMug();
+/// Bowl of 0.148 m diameter and 60 mm height with a wall of 3 mm, open at the top.
+[[nodiscard]] TriangleMesh MakeBowl();
+/// Pipe of 54 mm diameter and 0.16 m length with a wall of 3 mm, open at both ends.
+[[nodiscard]] TriangleMesh MakeTube();
+/// Something between box and ellipsoid, 0.1 x 0.07 x 0.14 m: no flat face, no edge.
+[[nodiscard]] TriangleMesh MakeSuperellipsoid();
+/// Screwdriver of 0.215 m: a handle with six flutes, a shaft of 7 mm, a flat blade.
+[[nodiscard]] TriangleMesh MakeScrewdriver();
+/// L of sheet metal: legs of 90 and 65 mm, 6 mm thick, 40 mm wide.
+[[nodiscard]] TriangleMesh MakeBracket();
+/// Bottle of 0.092 x 0.058 x 0.2 m with a spray head, nozzle and trigger along +x.
+[[nodiscard]] TriangleMesh MakeSprayBottle();
 /// Capsule about the z axis, from z = 0 (the tip) to z = -length.
 [[nodiscard]] TriangleMesh MakeCapsule(double radius_m, double length_m);
 

@@ -122,7 +122,4 @@ class Simulation {
   std::vector<std::uint8_t> exact_;  ///< Mask of one object.
 };
 
-/// The mesh of a procedural object. @pre options.object is not kObjFile.
-[[nodiscard]] TriangleMesh MakeObjectMesh(ObjectKind object);
-
 }  // namespace disflow::host

@@ -20,6 +20,12 @@ enum class ObjectKind : std::uint8_t {
   kRoundedBox,
   kFlatBox,
   kMug,
+  kBowl,
+  kTube,
+  kSuperellipsoid,
+  kScrewdriver,
+  kBracket,
+  kSprayBottle,
   kObjFile
 };
 enum class MotionKind : std::uint8_t {
@@ -70,6 +76,9 @@ struct SimulationOptions {
   ObjectKind object = ObjectKind::kBox;
   std::string obj_file;                 ///< With ObjectKind::kObjFile.
   std::vector<SimulatedShape> further;  ///< Objects behind it, one behind the other.
+  double edge_mm = 0.0;   ///< Radius of the edges of rounded and flat boxes; 0 = 4 and 2 mm.
+  double bulge_mm = 0.0;  ///< By which the faces of boxes stand out in the middle.
+  double uneven_mm = 0.0;  ///< Standard deviation of all surfaces from the drawn ones.
   MotionKind motion = MotionKind::kModerate;
   NoiseKind noise = NoiseKind::kClean;
   std::uint64_t seed = 1;
@@ -101,8 +110,8 @@ struct SimulationOptions {
 [[nodiscard]] hal::Fault SetSimulationOption(std::string_view key, std::string_view value,
                                              SimulationOptions& options);
 
-/// @param name box, bottle, can, doughnut, rounded-box, flat-box, mug or obj:FILE; several joined
-/// by +, the nearest first.
+/// @param name box, bottle, can, ... (the message of what is refused lists them) or obj:FILE;
+/// several joined by +, the nearest first.
 [[nodiscard]] hal::Fault SetSimulationObject(std::string_view name, SimulationOptions& options);
 
 /// Reads `sim:OBJECT?key=value&...`.

@@ -22,6 +22,9 @@ struct TriangleMesh {
 /// Moves the mesh so that the centre of its bounding box is the origin.
 void MoveCentreToOrigin(TriangleMesh& mesh);
 
+/// Adds another mesh, moved.
+void Append(const TriangleMesh& part, const Vec3d& at_m, TriangleMesh& mesh);
+
 /// Points spread evenly over the surface (uniform by area), the same ones on every call.
 [[nodiscard]] std::vector<Vec3d> SampleSurface(const TriangleMesh& mesh, int count);
 
