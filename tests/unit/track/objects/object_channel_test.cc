@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "disflow/host/simulated_shapes.h"
 #include "objects/object_channel.h"
 
 #include <gtest/gtest.h>
