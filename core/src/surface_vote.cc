@@ -55,6 +55,16 @@ bool ChooseOfCut(SurfaceVote* votes, int count) noexcept {
   return cut_off;
 }
 
+void ChooseLargestInsteadOfCrumbs(SurfaceVote* votes, int count) noexcept {
+  if (count == 0) return;
+  const int largest = LargestThatEnds(votes, count);
+  int chosen_pixels = 0;
+  for (int c = 0; c < count; ++c)
+    if (votes[c].chosen) chosen_pixels += votes[c].pixels;
+  if (chosen_pixels > 0 && 100 * chosen_pixels >= kCrumbPercent * votes[largest].pixels) return;
+  for (int c = 0; c < count; ++c) votes[c].chosen = c == largest;
+}
+
 int LargestThatEnds(const SurfaceVote* votes, int count) noexcept {
   int largest = 0;
   int own = -1;

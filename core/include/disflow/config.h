@@ -31,7 +31,8 @@ struct SegmenterConfig : ObjectStart {
   float free_margin_m = 0.012F;
   int mask_tolerance_px = 8;
   float mask_delay_s = 0.067F;
-  float lost_margin_m = 0.05F;
+  float velocity_change_mps = 0.9F;
+  float lost_margin_m = 0.3F;
   int grow_region = 1;
 };
 

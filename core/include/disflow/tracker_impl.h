@@ -183,6 +183,7 @@ Status Tracker<Limits>::Observe(const DepthFrame& frame, Estimate& estimate,
     // A mask is then the better guide.
     prior = {!(doubtful && frame.mask.given()),
              doubtful,
+             Seconds(SpanNs(twist_filter_.stamp_ns(), frame.stamp_ns)),
              T_oc_,
              field_.bounds_min_m(),
              field_.bounds_max_m(),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include "disflow/host/simulated_shapes.h"
 #include "tracked_sequence.h"
 
 namespace disflow::testing {
@@ -47,6 +48,22 @@ class Loss : public ::testing::TestWithParam<ObjectKind> {
  private:
   std::unique_ptr<TrackedSequence> sequence_;
 };
+
+TEST_P(Loss, ImpulsesBetweenRareImages_AreFollowedWithoutAMask) {
+  // 1.2 m/s and jumps of the velocity: 8 cm and 33 degrees from one image to the next.
+  constexpr int kFlyingFrames = 120;
+  host::SimulationOptions options = Scene(GetParam(), kFlyingFrames);
+  options.motion = host::MotionKind::kFlying;
+  options.noise = host::NoiseKind::kClean;
+  options.fps = 15.0;
+  options.mask = host::MaskKind::kNone;
+  const TrackedSequence& sequence = Track(options, kFlyingFrames);
+  int unregistered = 0;
+  for (const TrackedFrame& frame : sequence.frames())
+    unregistered += int{frame.estimate.status != Status::kOk};
+  EXPECT_LE(unregistered, 2);
+  ExpectSameObjectFrame();
+}
 
 TEST_P(Loss, FullOcclusion_IsStatedAtOnceAndSurvived) {
   host::SimulationOptions options = Scene(GetParam(), kFrames);

@@ -407,7 +407,7 @@ TEST_F(LaterFrame, TableThatTheModelAndTheMaskShare_IsNotFollowedBeyondTheTolera
 
 TEST_F(LaterFrame, Doubt_WidensTheReach) {
   DepthScene scene(2.2F);
-  // 6 cm beside the prediction: farther than model_margin_m, nearer than with lost_margin_m.
+  // 6 cm beside the prediction: farther than model_margin_m, nearer than after two frames without it.
   const int shift_px = static_cast<int>(0.06F * DepthScene::kFocal_px / kObject_m);
   scene.Rectangle(
       {kObject.u_min + shift_px, kObject.v_min, kObject.u_max + shift_px, kObject.v_max},
@@ -416,6 +416,23 @@ TEST_F(LaterFrame, Doubt_WidensTheReach) {
   ASSERT_EQ(Segment(scene), Status::kOk);
   EXPECT_EQ(Share(far_edge), 0.0);
   prior_.doubtful = true;
+  prior_.unseen_s = 0.067F;
+  ASSERT_EQ(Segment(scene), Status::kOk);
+  EXPECT_EQ(Share(far_edge), 1.0);
+}
+
+TEST_F(LaterFrame, LongerTimeBetweenImages_WidensTheReachByWhatAVelocityMayChange) {
+  DepthScene scene(2.2F);
+  constexpr float kShift_m = 0.045F;
+  const int shift_px = static_cast<int>(kShift_m * DepthScene::kFocal_px / kObject_m);
+  scene.Rectangle(
+      {kObject.u_min + shift_px, kObject.v_min, kObject.u_max + shift_px, kObject.v_max},
+      kObject_m);
+  const PixelBox far_edge{kObject.u_max + shift_px - 2, 45, kObject.u_max + shift_px, 55};
+  prior_.unseen_s = 1.0F / 30.0F;
+  ASSERT_EQ(Segment(scene), Status::kOk);
+  EXPECT_EQ(Share(far_edge), 0.0);
+  prior_.unseen_s = 1.0F / 15.0F;
   ASSERT_EQ(Segment(scene), Status::kOk);
   EXPECT_EQ(Share(far_edge), 1.0);
 }

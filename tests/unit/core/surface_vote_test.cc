@@ -90,6 +90,27 @@ TEST(SurfaceVote, LostObject_IsLookedForInWhatEndsButNotInCrumbs) {
   EXPECT_EQ(LargestThatEnds(votes.data(), 1), 0);
 }
 
+TEST(SurfaceVote, CrumbThatNobodyAskedAbout_DoesNotStandForAnObjectThatMovedOtherwise) {
+  // The prediction is so far off that the model explains next to nothing of the object itself.
+  SurfaceVote object = Own();
+  object.chosen = false;
+  object.explained = 10;
+  SurfaceVote crumb;
+  crumb.chosen = true;
+  crumb.pixels = 32;
+  std::array votes{crumb, object};
+  ChooseLargestInsteadOfCrumbs(votes.data(), 2);
+  EXPECT_FALSE(votes[0].chosen);
+  EXPECT_TRUE(votes[1].chosen);
+  // A part of the object as large as a fifth of something else is none.
+  votes[0].pixels = object.pixels / 5;
+  votes[0].chosen = true;
+  votes[1].chosen = false;
+  ChooseLargestInsteadOfCrumbs(votes.data(), 2);
+  EXPECT_TRUE(votes[0].chosen);
+  EXPECT_FALSE(votes[1].chosen);
+}
+
 TEST(SurfaceVote, UnderAMask_OnlyAModelThatPlainlyContradictsKeepsASurfaceOut) {
   SurfaceVote vote = Own();
   vote.masked = vote.pixels;

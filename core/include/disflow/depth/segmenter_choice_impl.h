@@ -115,13 +115,8 @@ void Segmenter<Limits>::ChooseSurfaces(const DepthFrame& frame, const SegmenterC
         Probe(depth, frame.camera, explains, run, vote(c));
     });
   }
-  bool any = false;
-  for (int c = 0; c < count; ++c) {
-    vote(c).chosen = !prior.doubtful && BelongsToObject(vote(c));
-    any = any || vote(c).chosen;
-  }
-  // The prediction is far off.
-  if (!any && count > 0) vote(LargestThatEnds(votes_.data(), count)).chosen = true;
+  for (int c = 0; c < count; ++c) vote(c).chosen = !prior.doubtful && BelongsToObject(vote(c));
+  ChooseLargestInsteadOfCrumbs(votes_.data(), count);
 }
 
 template <class Limits>

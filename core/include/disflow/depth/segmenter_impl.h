@@ -86,8 +86,9 @@ template <class Limits>
 ModelGate Segmenter<Limits>::GateOf(const DepthFrame& frame, const SegmenterConfig& config,
                                     const ModelPrior& prior) const noexcept {
   const float factor = frame.mask.given() ? kMaskMarginFactor : manner_.margins;
-  const float lost_m = prior.doubtful ? config.lost_margin_m : 0.0F;
-  return {frame.camera, prior, factor * config.model_margin_m + lost_m};
+  const float off_m = std::min(config.velocity_change_mps * prior.unseen_s, config.lost_margin_m);
+  if (prior.doubtful) return {frame.camera, prior, factor * config.model_margin_m + off_m};
+  return {frame.camera, prior, factor * std::max(config.model_margin_m, off_m)};
 }
 
 template <class Limits>

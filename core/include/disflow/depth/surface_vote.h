@@ -30,6 +30,10 @@ struct SurfaceVote {
 /// @return Whether the object was cut off.
 [[nodiscard]] bool ChooseOfCut(SurfaceVote* votes, int count) noexcept;
 
+/// Chooses LargestThatEnds() instead of what was chosen if that is nothing, or crumbs of which the
+/// model was not even asked: the prediction is far off then.
+void ChooseLargestInsteadOfCrumbs(SurfaceVote* votes, int count) noexcept;
+
 /// Of `count` surfaces the largest that does not go on where the object cannot be, if it is more
 /// than a crumb beside the largest of all, which it is otherwise.
 [[nodiscard]] int LargestThatEnds(const SurfaceVote* votes, int count) noexcept;
