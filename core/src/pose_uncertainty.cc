@@ -15,6 +15,8 @@ constexpr float kAnySpeed_mps = 0.5F;
 constexpr float kAnyRate_rps = 3.0F;
 // Share of the information that gradient errors explain from which on nothing is observed.
 constexpr float kAllApparent = 0.5F;
+// Share of a motion that is a turn from which on it is one.
+constexpr float kMostlyTurn = 0.9F;
 // Information that is left then, as a share: the covariance must stay within what float holds.
 constexpr float kRest = 1e-3F;
 // Relative information that every direction has, so that a plane has an inverse.
@@ -68,9 +70,27 @@ PoseUncertainty FindPoseUncertainty(const RegistrationInformation& information,
     if (observed) continue;
     const Vec6 u = b / Duration_s(b);
     result.unobserved += u * u.transpose();
+    const float turn = u.tail<3>().squaredNorm() / (kAnyRate_rps * kAnyRate_rps);
+    if (turn > kMostlyTurn) result.free_turn += u * u.transpose();
   }
   result.solved = result.covariance.allFinite();
   return result;
+}
+
+Twist KnownTwist(const Twist& twist, const Mat6& free_turn, float unobserved_s) noexcept {
+  constexpr float kLongest_s = 0.6F;  // a turn may then be anything
+  constexpr float kLittle = 100.0F;   // of which a hundredth is left
+  if (free_turn.isZero(0.0F) || unobserved_s < kLongest_s) return twist;
+  Vec6 per_unit = Vec6::Constant(1.0F / kAnyRate_rps);
+  per_unit.head<3>().setConstant(1.0F / kAnySpeed_mps);
+  Vec6 rate;
+  rate.head<3>() = twist.linear_mps;
+  rate.tail<3>() = twist.angular_rps;
+  const Eigen::LLT<Mat6> held(
+      Mat6::Identity() + kLittle * per_unit.asDiagonal() * free_turn * per_unit.asDiagonal());
+  const Vec6 known = held.solve(Vec6(rate.cwiseProduct(per_unit))).cwiseQuotient(per_unit);
+  if (held.info() != Eigen::Success || !known.allFinite()) return twist;
+  return {known.head<3>(), known.tail<3>()};
 }
 
 float RememberGradientVariance(float before_rad2, float by_frame_rad2) noexcept {

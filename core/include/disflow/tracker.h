@@ -12,6 +12,7 @@
 #include "disflow/estimate.h"
 #include "disflow/field/distance_field.h"
 #include "disflow/field/edge_map.h"
+#include "disflow/flow/free_axis.h"
 #include "disflow/flow/pose_noise.h"
 #include "disflow/flow/recognition.h"
 #include "disflow/flow/registration.h"
@@ -112,6 +113,9 @@ class Tracker {
     Mat6 reported = Mat6::Zero();    ///< With the drift of the model since its first view.
     /// Of the twist, along what no surface tells.
     Mat6 twist_unobserved = Mat6::Zero();
+    Mat6 free_turn = Mat6::Zero();  ///< What of it is a turn about an axis of the object's own.
+    Mat6 unobserved_o = Mat6::Zero();  ///< The same as this frame says it, in object axes.
+    Mat6 free_turn_o = Mat6::Zero();
     bool complete = true;    ///< The frame tells of all directions.
     float outline_m = 0.0F;  ///< How far outlines are off, at the object.
   };
@@ -167,6 +171,10 @@ class Tracker {
   Mat6 registered_covariance_ = Mat6::Zero();  ///< Of the last registered pose.
   float gradient_variance_rad2_ = 0.0F;   ///< Of the model's normals, as the last frames saw it.
   Mat6 twist_unobserved_ = Mat6::Zero();  ///< What the surface did not tell of its twist then.
+  Mat6 free_turn_ = Mat6::Zero();
+  Mat6 unobserved_o_ = Mat6::Zero();  ///< Likewise, in object axes.
+  Mat6 free_turn_o_ = Mat6::Zero();
+  FreeAxis free_axis_;
   int observed_frames_ = 0;  ///< In a row that told of all directions, up to kFramesUntilObserved.
   StampNs observed_ns_ = 0;  ///< When the surface last told the pose in all directions.
 

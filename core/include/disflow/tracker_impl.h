@@ -246,10 +246,14 @@ void Tracker<Limits>::StartAt(StampNs stamp_ns, const PoseObjectFromCamera& T_oc
   registered_covariance_ = variance * Mat6::Identity();
   gradient_variance_rad2_ = 0.0F;
   twist_unobserved_.setZero();
+  free_turn_.setZero();
+  unobserved_o_.setZero();
+  free_turn_o_.setZero();
   twist_filter_.Start(config_.twist, stamp_ns, T_oc.Inverse(), registered_covariance_);
   observed_ns_ = stamp_ns;
   monitor_.Start(config_.monitor, stamp_ns);
   recognition_.Forget();
+  free_axis_.Forget();
   frame_index_ = 0;
   started_ = true;
 }
@@ -263,6 +267,9 @@ void Tracker<Limits>::MoveTo(StampNs stamp_ns, const PoseObjectFromCamera& T_oc)
   twist_filter_.Update(T_oc.Inverse(), kKnownPoseVariance * Mat6::Identity());
   registered_covariance_ = twist_filter_.pose_covariance();
   twist_unobserved_.setZero();
+  free_turn_.setZero();
+  unobserved_o_.setZero();
+  free_turn_o_.setZero();
   observed_ns_ = stamp_ns;
   monitor_.Update({.registered = true,
                    .score = 1.0F,
@@ -318,7 +325,8 @@ Status Tracker<Limits>::Finish(Status status, const DepthFrame& frame,
 template <CapacityProfile Limits>
 void Tracker<Limits>::Report(const PoseCameraFromObject& T_co, Estimate& estimate) const noexcept {
   estimate.T_co = T_co;
-  estimate.twist = twist_filter_.twist();
+  estimate.twist = KnownTwist(twist_filter_.twist(), free_turn_,
+                              Seconds(SpanNs(observed_ns_, twist_filter_.stamp_ns())));
   estimate.state = monitor_.state();
   estimate.quality = monitor_.quality();
 }

@@ -141,6 +141,10 @@ void Tracker<Limits>::Follow(StampNs stamp_ns, const Aligned& aligned,
   gradient_variance_rad2_ =
       RememberGradientVariance(gradient_variance_rad2_, aligned.information.gradient_variance_rad2);
   twist_unobserved_ = covariance.twist_unobserved;
+  free_turn_ = covariance.free_turn;
+  unobserved_o_ = covariance.unobserved_o;
+  free_turn_o_ = covariance.free_turn_o;
+  free_axis_.Learn(covariance.free_turn_o);
   observed_frames_ = covariance.complete ? std::min(observed_frames_ + 1, kFramesUntilObserved) : 0;
   estimate.pose_covariance = covariance.reported;
   estimate.twist_covariance = TwistCovariance(twist_filter_);
@@ -237,6 +241,9 @@ typename Tracker<Limits>::PoseCovariance Tracker<Limits>::CovarianceOf(
   const auto in_camera = [&](const Mat6& covariance_o) {
     return CovarianceAtPoint(covariance_o, R_co, to_origin_m);
   };
+  const auto in_object = [&](const Mat6& covariance_o) {
+    return CovarianceAtPoint(covariance_o, Mat3::Identity(), to_origin_m);
+  };
   const float since_s = Seconds(SpanNs(observed_ns_, frame.stamp_ns));
   const float unobserved_s = std::min(since_s, kLongest_s);
 
@@ -250,14 +257,20 @@ typename Tracker<Limits>::PoseCovariance Tracker<Limits>::CovarianceOf(
   result.to_model = in_camera(pose_noise_.Of(uncertainty.covariance));
   result.reported =
       result.to_model + in_camera(DriftOf(uncertainty.covariance, placement, config_.registration));
-  if (!uncertainty.IsComplete()) {
-    result.twist_unobserved = in_camera(uncertainty.unobserved);
-  } else if (observed_frames_ < kFramesUntilObserved && !monitor_.Doubts(frame.stamp_ns)) {
+  result.unobserved_o = in_object(uncertainty.unobserved);
+  result.free_turn_o = in_object(uncertainty.free_turn);
+  if (uncertainty.IsComplete() && observed_frames_ < kFramesUntilObserved &&
+      !monitor_.Doubts(frame.stamp_ns)) {
     // One frame that seems to tell it does not: it stays the object's own axis. Of an object that
     // was lost nothing of the frames before counts.
-    result.twist_unobserved =
-        RotatedCovariance(twist_unobserved_, R_co * twist_filter_.T_co().rotation().transpose());
+    result.unobserved_o = unobserved_o_;
+    result.free_turn_o = free_turn_o_;
   }
+  const Mat6 steadied_o = free_axis_.Steadied(result.free_turn_o);
+  // What noise turned it about is what the frame says itself.
+  result.free_turn = RotatedCovariance(result.free_turn_o, R_co);
+  result.twist_unobserved =
+      RotatedCovariance(result.unobserved_o - result.free_turn_o + steadied_o, R_co);
   result.complete = uncertainty.IsComplete();
   if (!result.twist_unobserved.isZero(0.0F)) {
     const Mat6 turned = unobserved_s * unobserved_s * result.twist_unobserved;

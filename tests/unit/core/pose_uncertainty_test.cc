@@ -64,9 +64,34 @@ TEST(PoseUncertainty, TurnOfACan_IsUnobservedThoughGradientsSeemToTellIt) {
   // The direction is the turn about the axis, and as fast as anything may turn.
   EXPECT_NEAR(uncertainty.unobserved(5, 5), 9.0F, 0.5F);
   EXPECT_LT((uncertainty.unobserved.topLeftCorner<3, 3>().norm()), 0.01F);
+  EXPECT_TRUE(uncertainty.free_turn.isApprox(uncertainty.unobserved));
   // What is observed stays known.
   for (int i = 0; i < 3; ++i) EXPECT_LT(Std(uncertainty.covariance, i), 3e-4F) << i;
   for (int i = 3; i < 5; ++i) EXPECT_LT(Std(uncertainty.covariance, i), 5e-3F) << i;
+}
+
+TEST(KnownTwist, TurnAboutAFreeAxis_IsLeftOutOnceNothingToldItForLong) {
+  const Mat6 free_turn = FindPoseUncertainty(SeenBody(0.02F), kGradientStd_rad).free_turn;
+  const Twist twist{Vec3(0.1F, -0.2F, 0.3F), Vec3(0.5F, 1.0F, 7.0F)};
+  const Twist known = KnownTwist(twist, free_turn, 1.0F);
+  EXPECT_LT(std::abs(known.angular_rps.z()), 0.1F * twist.angular_rps.z());
+  EXPECT_LT((known.angular_rps - twist.angular_rps).head<2>().norm(), 0.15F);
+  EXPECT_LT((known.linear_mps - twist.linear_mps).norm(), 0.02F);
+  // What was known a moment ago still is.
+  EXPECT_EQ(KnownTwist(twist, free_turn, 0.3F).angular_rps, twist.angular_rps);
+  EXPECT_EQ(KnownTwist(twist, Mat6::Zero(), 1.0F).angular_rps, twist.angular_rps);
+}
+
+TEST(KnownTwist, OfAPointBesideTheAxis_LosesWhatTheTurnMovedItBy) {
+  const Mat6 about_axis = FindPoseUncertainty(SeenBody(0.02F), kGradientStd_rad).free_turn;
+  const Vec3 beside_m(0.1F, 0.0F, 0.0F);
+  const Mat6 free_turn = CovarianceAtPoint(about_axis, Mat3::Identity(), beside_m);
+  const Vec3 turn_rps(0.0F, 0.0F, 5.0F);
+  const Vec3 moves_mps(0.0F, 0.0F, 0.2F);
+  const Twist known =
+      KnownTwist({Vec3(moves_mps + turn_rps.cross(beside_m)), turn_rps}, free_turn, 1.0F);
+  EXPECT_LT((known.linear_mps - moves_mps).norm(), 0.06F);
+  EXPECT_LT(known.angular_rps.norm(), 0.5F);
 }
 
 /// Edges along the body's axis, which tell its turn.
@@ -141,6 +166,22 @@ TEST(PoseUncertainty, Plane_LeavesItsTwoShiftsAndItsTurnUnobserved) {
   EXPECT_GT(uncertainty.unobserved(5, 5), 1.0F);
   for (int i : {2, 3, 4}) EXPECT_LT(uncertainty.unobserved(i, i), 0.01F) << i;
   EXPECT_LT(Std(uncertainty.covariance, 2), 1e-4F);
+}
+
+TEST(PoseUncertainty, ShiftOfAPlane_IsNoTurnAboutAnAxis) {
+  NormalSums sums;
+  for (int i = 0; i < 200; ++i) {
+    const Vec3 point_m(0.01F * static_cast<float>(i % 20), 0.01F * static_cast<float>(i / 20), 0.0F);
+    sums.Add(point_m - Vec3(0.095F, 0.045F, 0.0F), Vec3::UnitZ(), 0.0F, 1e6F);
+  }
+  NormalEquations equations;
+  equations += sums;
+  const PoseUncertainty uncertainty = FindPoseUncertainty(
+      {equations.h, equations.h, equations.Isotropic() - equations.h}, kGradientStd_rad);
+  ASSERT_FALSE(uncertainty.IsComplete());
+  // Of all that is unobserved only the turn within the plane is one.
+  EXPECT_LT((uncertainty.free_turn.topLeftCorner<3, 3>().norm()), 0.1F);
+  EXPECT_LT(uncertainty.free_turn.diagonal()[3] + uncertainty.free_turn.diagonal()[4], 0.1F);
 }
 
 TEST(PoseUncertainty, NotFiniteOrEmptyInformation_IsNotSolved) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "disflow/estimate.h"
 #include "disflow/geometry/transform.h"
 #include "disflow/types.h"
 
@@ -24,6 +25,8 @@ struct PoseUncertainty {
   /// Sum of u u^T over the directions u of which neither surface nor edges tell anything, each as
   /// far as an object may move along it in a second. Zero when there are none.
   Mat6 unobserved = Mat6::Zero();
+  /// What of it are turns about an axis of the object's own.
+  Mat6 free_turn = Mat6::Zero();
   bool solved = false;  ///< False when the information is not finite.
 
   [[nodiscard]] bool IsComplete() const noexcept { return unobserved.isZero(0.0F); }
@@ -37,6 +40,13 @@ struct PoseUncertainty {
 /// @param least_gradient_std Error of the field's gradients where the frame shows none, rad.
 [[nodiscard]] PoseUncertainty FindPoseUncertainty(const RegistrationInformation& information,
                                                   float least_gradient_std) noexcept;
+
+/// A twist as far as the surface tells it. About an axis of which nothing has told for some time
+/// registration follows noise: a can seems to turn by hundreds of degrees per second, and looks the
+/// same. It is taken for one that does not turn about it.
+/// @param free_turn As PoseUncertainty::free_turn; of the object's origin, camera axes.
+[[nodiscard]] Twist KnownTwist(const Twist& twist, const Mat6& free_turn,
+                               float unobserved_s) noexcept;
 
 /// What is remembered of RegistrationInformation::gradient_variance_rad2 after a frame. The model's
 /// normals change slowly; one frame that happens to agree with them makes them no better.
