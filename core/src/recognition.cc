@@ -5,14 +5,15 @@ namespace disflow {
 namespace {
 
 constexpr int kPatience = 2;
-constexpr float kSameTurn_rad = 0.35F;  // in a frame: 10 rad/s at 30 Hz
-constexpr float kSameShift_m = 0.05F;   // and 1.5 m/s
+// As fast as things move by hand.
+constexpr float kFastest_rps = 10.0F;
+constexpr float kFastest_mps = 1.5F;
 
 }  // namespace
 
-bool Recognition::Confirm(bool recognised, const PoseObjectFromCamera& T_oc,
-                          const Vec3& center_c) noexcept {
-  const bool same = pending() && IsNear(T_oc, center_c);
+bool Recognition::Confirm(bool recognised, const PoseObjectFromCamera& T_oc, const Vec3& center_c,
+                          StampNs stamp_ns) noexcept {
+  const bool same = pending() && IsNear(T_oc, center_c, Seconds(SpanNs(stamp_ns_, stamp_ns)));
   if (recognised && same) {
     Forget();
     return true;
@@ -23,13 +24,17 @@ bool Recognition::Confirm(bool recognised, const PoseObjectFromCamera& T_oc,
     --patience_;
   }
   // The object may move on while it is looked at.
-  if (recognised || same) T_oc_ = T_oc;
+  if (recognised || same) {
+    T_oc_ = T_oc;
+    stamp_ns_ = stamp_ns;
+  }
   return false;
 }
 
-bool Recognition::IsNear(const PoseObjectFromCamera& T_oc, const Vec3& center_c) const noexcept {
-  return (T_oc * center_c - T_oc_ * center_c).norm() < kSameShift_m &&
-         TurnBetween(T_oc_.rotation(), T_oc.rotation()).norm() < kSameTurn_rad;
+bool Recognition::IsNear(const PoseObjectFromCamera& T_oc, const Vec3& center_c,
+                         float since_s) const noexcept {
+  return (T_oc * center_c - T_oc_ * center_c).norm() < kFastest_mps * since_s &&
+         TurnBetween(T_oc_.rotation(), T_oc.rotation()).norm() < kFastest_rps * since_s;
 }
 
 }  // namespace disflow

@@ -100,7 +100,8 @@ Status Tracker<Limits>::Conclude(const DepthFrame& frame, Status observed, const
   const bool recognised =
       evidence.in_view && !near && monitor_.Recognises(evidence) &&
       TurnBetween(T_oc_.rotation(), aligned.T_oc.rotation()).norm() <= kFarthestRecognised_rad;
-  const bool found_again = recognition_.Confirm(recognised, aligned.T_oc, aligned.center_c);
+  const bool found_again = 
+      recognition_.Confirm(recognised, aligned.T_oc, aligned.center_c, frame.stamp_ns);
   evidence.registered = followed || found_again;
   monitor_.Update(evidence, frame.stamp_ns);
   if (evidence.registered) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "disflow/geometry/transform.h"
+#include "disflow/saturating.h"
 
 namespace disflow {
 
@@ -18,13 +19,17 @@ class Recognition {
   /// @param T_oc That pose.
   /// @param center_c A point of the object, camera frame.
   /// @return Whether that confirms what a frame before recognised.
-  bool Confirm(bool recognised, const PoseObjectFromCamera& T_oc, const Vec3& center_c) noexcept;
+  bool Confirm(bool recognised, const PoseObjectFromCamera& T_oc, const Vec3& center_c,
+               StampNs stamp_ns) noexcept;
 
  private:
-  [[nodiscard]] bool IsNear(const PoseObjectFromCamera& T_oc, const Vec3& center_c) const noexcept;
+  /// Whether an object may have moved so far since T_oc().
+  [[nodiscard]] bool IsNear(const PoseObjectFromCamera& T_oc, const Vec3& center_c,
+                            float since_s) const noexcept;
 
   int patience_ = 0;  ///< Frames that may still confirm.
   PoseObjectFromCamera T_oc_;
+  StampNs stamp_ns_ = 0;  ///< Of T_oc_.
 };
 
 }  // namespace disflow
