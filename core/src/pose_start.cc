@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "disflow/geometry/symmetric_eigen.h"
+
 namespace disflow {
 namespace {
 
@@ -39,6 +41,19 @@ Mat3 GlobalRotation(int index) noexcept {
   std::size_t shell = 0;
   while (index >= kShells[shell].axes) index -= kShells[shell++].axes;
   return ExpSo3(Vec3(kShells[shell].angle_rad * LatticeAxis(index, kShells[shell].axes)));
+}
+
+Mat3 PrincipalAxes(const Mat3& covariance) noexcept {
+  Mat6 padded = Mat6::Zero();
+  padded.topLeftCorner<3, 3>() = covariance;
+  return SymmetricEigen6(padded).vectors.topLeftCorner<3, 3>();
+}
+
+PoseObjectFromCamera TurnedOver(const PoseObjectFromCamera& T_oc, const Vec3& axis,
+                                const Vec3& center_m) noexcept {
+  const Mat3 half_turn = 2.0F * axis * axis.transpose() - Mat3::Identity();
+  return {Mat3(half_turn * T_oc.rotation()),
+          Vec3(half_turn * (T_oc.translation() - center_m) + center_m)};
 }
 
 PoseObjectFromCamera HalfWay(const Vec3& center_c, const PoseObjectFromCamera& a,

@@ -20,6 +20,7 @@ constexpr float kMinRecoveredShare = 0.55F;
 // reach 0.94 of the usual score, or contradict the model by 0.03 more than usual in one of two
 // frames.
 constexpr float kRecognisedShare = 0.95F;
+constexpr float kSuspectedShare = 0.9F;
 constexpr float kRecognisedInlierShare = 0.6F;
 constexpr float kRecognisedConflict = 0.03F;  // of some forty points in view one is off by chance
 constexpr float kRecognisedVisible =
@@ -142,6 +143,12 @@ bool TrackingMonitor::Recognises(const Evidence& evidence) const noexcept {
          evidence.visible >= kRecognisedVisible &&
          evidence.position_to_model_std_m <= config_.degraded_std_m &&
          evidence.rotation_to_model_std_rad <= config_.degraded_std_rad;
+}
+
+bool TrackingMonitor::Suspects(const Evidence& evidence) const noexcept {
+  return evidence.registered && evidence.score >= kSuspectedShare * usual_.score &&
+         evidence.conflict <= usual_.conflict + 2.0F * kRecognisedConflict &&
+         evidence.visible >= kRecognisedVisible;
 }
 
 bool TrackingMonitor::ShouldRestart() const noexcept {

@@ -93,7 +93,6 @@ class Tracker {
   /// turned anyhow.
   static constexpr int kLocalSearches = 2;
   /// Many things look alike when they are turned about: more than a quarter turn is not believed.
-  static constexpr float kFarthestRecognised_rad = 1.9F;
   static constexpr int kInitialBudgetFactor = 12;
   static constexpr int kFramesUntilObserved = 3;
   static constexpr int kMostForgotten = 64;  ///< Clusters per frame; the rest goes in the next.
@@ -191,6 +190,7 @@ class Tracker {
   SeenSpace<Limits::kMaxSeenViews, Limits::kSeenCells> seen_;
   TwistFilter twist_filter_;
   PoseNoise pose_noise_;
+  int global_part_ = 0;  ///< Of a search in all directions, the next.
   TrackingMonitor monitor_;
   Recognition recognition_;
 };

@@ -253,6 +253,7 @@ void Tracker<Limits>::StartAt(StampNs stamp_ns, const PoseObjectFromCamera& T_oc
   observed_ns_ = stamp_ns;
   monitor_.Start(config_.monitor, stamp_ns);
   recognition_.Forget();
+  global_part_ = 0;
   free_axis_.Forget();
   frame_index_ = 0;
   started_ = true;

@@ -35,6 +35,7 @@ typename Tracker<Limits>::Aligned Tracker<Limits>::Register(const DepthFrame& fr
   const auto start =
       PoseSearch<Limits>(registration, field_, model_edges_, config_.registration, prior)
           .Find(conflict);
+  if (prior.global >= 0) global_part_ = (global_part_ + 1) % PoseSearch<Limits>::kGlobalFrames;
   registration.SetObservations(samples_, edges_);
   Aligned aligned =
       registration.Align(field_, model_edges_, config_.registration, start.T_oc, start.T_expected,
@@ -59,10 +60,12 @@ template <CapacityProfile Limits>
 PoseSearchPrior Tracker<Limits>::SearchPrior(StampNs stamp_ns) const noexcept {
   PoseSearchPrior prior{T_oc_, T_oc_previous_, frame_index_ >= kFramesUntilVelocity,
                         monitor_.Doubts(stamp_ns) ? monitor_.missed() + 1 : 0};
-  if (recognition_.pending()) {
+  if (recognition_.pending() || recognition_.suspected()) {
     prior.T_predicted = prior.T_previous = recognition_.T_oc();
+    prior.turned_over = true;
+    prior.R_oc_known = T_oc_previous_.rotation();
   } else if (monitor_.searched() >= kLocalSearches) {
-    prior.global = (monitor_.searched() - kLocalSearches) % PoseSearch<Limits>::kGlobalFrames;
+    prior.global = global_part_;
   }
   return prior;
 }
@@ -97,11 +100,15 @@ Status Tracker<Limits>::Conclude(const DepthFrame& frame, Status observed, const
   const bool explained =
       evidence.in_view && near && evidence.registered && monitor_.Explains(evidence);
   if (followed || explained) ForgetContradicted(frame, aligned.T_oc, estimate);
-  const bool recognised =
-      evidence.in_view && !near && monitor_.Recognises(evidence) &&
-      TurnBetween(T_oc_.rotation(), aligned.T_oc.rotation()).norm() <= kFarthestRecognised_rad;
+  const bool recognised = evidence.in_view && !near && monitor_.Recognises(evidence);
   const bool found_again = 
       recognition_.Confirm(recognised, aligned.T_oc, aligned.center_c, frame.stamp_ns);
+  const bool looked_twice = recognition_.suspected();
+  recognition_.DropSuspicion();
+  if (!near && evidence.in_view && !looked_twice && !recognition_.pending() &&
+      monitor_.Suspects(evidence)) {
+    recognition_.Suspect(aligned.T_oc);
+  }
   evidence.registered = followed || found_again;
   monitor_.Update(evidence, frame.stamp_ns);
   if (evidence.registered) {
@@ -122,6 +129,7 @@ void Tracker<Limits>::Follow(StampNs stamp_ns, const Aligned& aligned,
   T_oc_ = aligned.T_oc;
   T_oc_previous_ = T_oc_;
   recognition_.Forget();
+  global_part_ = 0;
   if (covariance.twist_unobserved.isZero(0.0F)) observed_ns_ = stamp_ns;
   // The twist filter sees differences between frames, in which the drift of the model cancels.
   if (found_again) {

@@ -259,6 +259,18 @@ TEST_F(TrackingMonitorTest, PoseThatMayBeAny_IsRecognisedOnlyBeyondDoubt) {
       << "a mug whose handle is hidden";
 }
 
+TEST_F(TrackingMonitorTest, PoseThatIsNearlyRecognised_IsSuspected) {
+  Track();
+  Offer(InVain(), config_.lost_after_frames);
+  // A bottle turned over: most of it is explained, and nothing of it is missing.
+  EXPECT_TRUE(monitor_.Suspects(With([](Evidence& e) { e.inliers = 200; })));
+  EXPECT_TRUE(monitor_.Suspects(With([](Evidence& e) { e.rotation_to_model_std_rad = 0.5F; })));
+  EXPECT_FALSE(monitor_.Suspects(With([](Evidence& e) { e.registered = false; })));
+  EXPECT_FALSE(monitor_.Suspects(With([](Evidence& e) { e.score = 0.7F; })));
+  EXPECT_FALSE(monitor_.Suspects(With([](Evidence& e) { e.conflict = 0.2F; })));
+  EXPECT_FALSE(monitor_.Suspects(With([](Evidence& e) { e.visible = 0.3F; })));
+}
+
 TEST_F(TrackingMonitorTest, StampsAtBothEndsOfTime_AreFarApart) {
   constexpr StampNs kFirst_ns = std::numeric_limits<StampNs>::min();
   constexpr StampNs kLast_ns = std::numeric_limits<StampNs>::max();

@@ -40,6 +40,12 @@ class PoseSearch {
       AddGlobal(starts);
       return BestAndCentred(starts, conflict);
     }
+    if (prior_.turned_over) {
+      (void)starts.push_back(T_predicted);
+      AddTurnedOver(starts);
+      AddTurned(starts);
+      return BestAndCentred(starts, conflict);
+    }
     (void)starts.push_back(T_predicted);
     (void)starts.push_back(prior_.T_previous);
     (void)starts.push_back(Recentred(T_predicted));
@@ -69,6 +75,26 @@ class PoseSearch {
     }
   }
 
+  /// Half turns about the model's principal axes.
+  void AddTurnedOver(Starts& starts) const noexcept {
+    Vec3 sum = Vec3::Zero();
+    Mat3 squares = Mat3::Zero();
+    float count = 0.0F;
+    field_.store().ForEach([&](Handle, const auto& cluster) {
+      const auto samples = static_cast<float>(cluster.samples.size());
+      sum += samples * cluster.centroid_m;
+      squares += samples * cluster.centroid_m * cluster.centroid_m.transpose();
+      count += samples;
+    });
+    if (count < 1.0F) return;
+    const Vec3 center_m = sum / count;
+    const Mat3 axes = PrincipalAxes(squares / count - center_m * center_m.transpose());
+    for (int i = 0; i < 3; ++i) {
+      (void)starts.push_back(
+          Recentred(TurnedOver(prior_.T_predicted, Vec3(axes.col(i)), center_m)));
+    }
+  }
+
   [[nodiscard]] PoseObjectFromCamera PredictedTurned(const Mat3& turn) const noexcept {
     return Recentred(
         {Mat3(turn * prior_.T_predicted.rotation()), prior_.T_predicted.translation()});
@@ -90,6 +116,8 @@ class PoseSearch {
 
   static constexpr float kEdgeShare = 0.3F;
   static constexpr float kDeviationShare = 0.15F;
+  /// Half a turn counts as much as 2 % of the surface: what a score scatters by.
+  static constexpr float kTurnShare_per_rad = 0.006F;
   static constexpr float kBelievedShare = 0.5F;
   static constexpr float kSearchedShare = 0.25F;
   static constexpr float kMinCosine = 0.3F;
@@ -137,9 +165,13 @@ class PoseSearch {
   [[nodiscard]] float Plausibility(const PoseObjectFromCamera& T_oc,
                                    const Conflict& conflict) const noexcept {
     const float deviation = Deviation(T_oc);
+    // Of what is searched for in all directions next to nothing is known of the motion.
+    const float unlikely =
+        prior_.turned_over
+            ? kTurnShare_per_rad * TurnBetween(prior_.R_oc_known, T_oc.rotation()).norm()
+            : kDeviationShare * deviation / (1.0F + deviation);
     return registration_.Score(field_, config_, T_oc) * (1.0F - conflict(T_oc)) +
-           kEdgeShare * registration_.EdgeScore(edges_, config_, T_oc) -
-           kDeviationShare * deviation / (1.0F + deviation);
+           kEdgeShare * registration_.EdgeScore(edges_, config_, T_oc) - unlikely;
   }
 
   [[nodiscard]] float Deviation(const PoseObjectFromCamera& T_oc) const noexcept {

@@ -29,6 +29,11 @@ struct PoseSearchPrior {
   /// Not negative: the object may have been turned anyhow meanwhile, and this is the n-th part of a
   /// search in all directions, from 0.
   int global = -1;
+  /// What was searched for may be where it is predicted, or turned over: many things look nearly
+  /// alike then, and boxes do.
+  bool turned_over = false;
+  /// Where it was registered last: of what looks alike that is taken which is turned least.
+  Mat3 R_oc_known = Mat3::Identity();
 };
 
 /// The axes and the diagonals of a cube, both ways.
@@ -40,6 +45,14 @@ inline constexpr int kCubeDirections = 14;
 inline constexpr int kGlobalRotations = 72;
 /// @param index From 0 to kGlobalRotations - 1.
 [[nodiscard]] Mat3 GlobalRotation(int index) noexcept;
+
+/// The principal axes of a spread of points, as columns.
+[[nodiscard]] Mat3 PrincipalAxes(const Mat3& covariance) noexcept;
+
+/// The pose of an object that has been turned over.
+/// @param axis Unit vector through `center_m`, object frame.
+[[nodiscard]] PoseObjectFromCamera TurnedOver(const PoseObjectFromCamera& T_oc, const Vec3& axis,
+                                              const Vec3& center_m) noexcept;
 
 /// The pose in the middle between two, turned about a centre.
 /// @param center_c Camera frame.

@@ -10,10 +10,22 @@ namespace disflow {
 /// three frames in a row recognise it at the same place.
 class Recognition {
  public:
-  void Forget() noexcept { patience_ = 0; }
+  void Forget() noexcept {
+    patience_ = 0;
+    suspected_ = false;
+  }
   /// The object was recognised a moment ago; T_oc() is where.
   [[nodiscard]] bool pending() const noexcept { return patience_ > 0; }
   [[nodiscard]] const PoseObjectFromCamera& T_oc() const noexcept { return T_oc_; }
+
+  /// T_oc() is what a frame shows nearly: the object may be turned over.
+  [[nodiscard]] bool suspected() const noexcept { return suspected_; }
+  /// Looks there once more in the next frame.
+  void Suspect(const PoseObjectFromCamera& T_oc) noexcept {
+    suspected_ = true;
+    T_oc_ = T_oc;
+  }
+  void DropSuspicion() noexcept { suspected_ = false; }
 
   /// @param recognised Whether a frame's pose is beyond doubt.
   /// @param T_oc That pose.
@@ -28,6 +40,7 @@ class Recognition {
                             float since_s) const noexcept;
 
   int patience_ = 0;  ///< Frames that may still confirm.
+  bool suspected_ = false;
   PoseObjectFromCamera T_oc_;
   StampNs stamp_ns_ = 0;  ///< Of T_oc_.
 };

@@ -51,6 +51,8 @@ class TrackingMonitor {
   /// Whether a pose that may be any is beyond doubt: the model explains the frame as well as it did
   /// before the loss, the frame contradicts the model as little, and no direction is left open.
   [[nodiscard]] bool Recognises(const Evidence& evidence) const noexcept;
+  /// Whether a pose that may be any is near enough to that to be looked at again.
+  [[nodiscard]] bool Suspects(const Evidence& evidence) const noexcept;
   /// Something has been in view for so long without being recognised that the object should be
   /// started anew. While nothing is in view its model is kept.
   [[nodiscard]] bool ShouldRestart() const noexcept;
