@@ -99,7 +99,8 @@ def run_once(build, options, log):
     with tempfile.TemporaryDirectory() as folder:
         report = os.path.join(folder, "report.xml")
         command = ["ctest", "--test-dir", build, "--output-on-failure", "--no-tests=error", "--output-junit", report,
-                   "--test-output-size-passed", "8192", "--parallel", str(os.cpu_count()), *options]
+                   "--test-output-size-passed", "8192",
+                   "--parallel", os.environ.get("CTEST_PARALLEL_LEVEL", str(os.cpu_count())), *options]
         if log:
             command += ["--output-log", os.path.abspath(log)]
         status = subprocess.run(command, check=False).returncode

@@ -66,6 +66,19 @@ class Report(unittest.TestCase):
         self.assertEqual(run_ctest.summary_of_skips([]), "none skipped")
 
 
+class Parallel(unittest.TestCase):
+    def jobs(self, **environment):
+        with mock.patch.dict(os.environ, environment, clear=True), mock.patch("subprocess.run") as run:
+            run.return_value.returncode = 0
+            run_ctest.run_once("build/x", [], None)
+        command = run.call_args[0][0]
+        return command[command.index("--parallel") + 1]
+
+    def test_as_many_as_processors_unless_ctests_own_variable_says_how_many(self):
+        self.assertEqual(self.jobs(), str(os.cpu_count()))
+        self.assertEqual(self.jobs(CTEST_PARALLEL_LEVEL="17"), "17")
+
+
 class Judgement(unittest.TestCase):
     def test_one_failure_in_one_round_fails_and_is_named(self):
         status, text = judge([Round([], [], 3), Round(["Some.Test"], [], 3)], on_ci=False)
