@@ -12,6 +12,7 @@ running=
 parts() {
   cat <<'TEXT'
 tsan           120 test --preset tsan
+soak-release    90 test --soak --release
 soak           120 test --soak
 clang          180 test --preset clang
 asan           240 test --preset asan

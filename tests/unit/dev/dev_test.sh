@@ -65,6 +65,21 @@ build() { [[ " $* " = *" -DDISFLOW_BUILD_PEERS=ON "* ]] && exit 44; exit 43; }
 expect 44 run_bench peers
 expect 43 run_bench
 
+# --- soak: which build it is that runs
+need() { :; }
+build() { echo "$1"; }
+python3() { [ "$4" = "build/$wanted/bin/disflow_track" ] && [ "${*:5}" = "$told" ]; }
+soaked() { # soaked BUILD OPTIONS ARGUMENT...: what soak.py is told
+  local wanted="$1" told="$2"
+  shift 2
+  run_soak "$@"
+}
+expect 0 soaked asan ""
+expect 0 soaked asan "--minutes 3" --minutes 3
+expect 0 soaked release "--minutes 3" --minutes 3 --release
+expect 0 soaked release "--valgrind" --valgrind
+expect 1 soaked asan "" --release
+
 # --- watch_ninja, watch_apt: steps become progress, and what is no step is seen
 seen() { # seen WORDS COMMAND...: the command's output holds them
   local words="$1" output
