@@ -17,6 +17,11 @@ namespace {
 using hal::Fault;
 using hal::MakeFault;
 
+/// A frame is, and the next call goes on.
+bool IsLost(const Fault& fault) {
+  return fault.status == Status::kCorrupt || fault.status == Status::kTruncated;
+}
+
 struct Mask {
   std::vector<std::uint8_t> pixels;
   int width_px = 0;
@@ -110,26 +115,27 @@ Fault BagSensor::State::Restart() {
 
 /// The first good image says how large all are.
 Fault BagSensor::State::FindSize() {
-  Fault reason = Restart();
-  if (!reason.ok()) return reason;
+  // Of damaged ones a short file may hold millions.
+  constexpr int kMostDamaged = 10'000;
+  if (const Fault fault = Restart(); !fault.ok()) return fault;
   DepthFrame frame;
-  for (;;) {
-    const Fault fault = Next(frame);
-    if (fault.ok()) break;
-    if (fault.status == Status::kEndOfStream) {
-      if (!reason.ok()) return reason;
-      return taken == 0 ? depth.Missing() : fault;
-    }
-    if (fault.status != Status::kCorrupt && fault.status != Status::kTruncated) return fault;
+  Fault reason;
+  Fault fault = Next(frame);
+  for (int damaged = 1; IsLost(fault) && damaged < kMostDamaged; ++damaged) {
     if (reason.ok()) reason = fault;
+    fault = Next(frame);
   }
+  const bool is_over = fault.status == Status::kEndOfStream;
+  if ((is_over || IsLost(fault)) && !reason.ok()) return reason;
+  if (is_over && taken == 0) return depth.Missing();
+  if (!fault.ok()) return fault;
   width_px = frame.depth.width_px;
   height_px = frame.depth.height_px;
   decoder.FixSize(width_px, height_px);
   no_mask.assign(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px), 0);
   if (has_masks()) {
     // A mask of another kind, or none at all, is to be known before the first frame.
-    const Fault fault = masks.BeginWithFirst(ReadMask);
+    fault = masks.BeginWithFirst(ReadMask);
     if (!fault.ok()) return fault;
   }
   return Restart();
@@ -246,8 +252,7 @@ Fault BagSensor::DoNext(std::int64_t /*timeout_ns*/, DepthFrame& frame) noexcept
     return MakeFault(Status::kNotOpen, "%s: not open; call Open() first", options_.path.c_str());
   const Fault fault = state.Next(frame);
   if (fault.ok()) AddSaturating(state.counters.frames);
-  if (fault.status == Status::kCorrupt || fault.status == Status::kTruncated)
-    AddSaturating(state.counters.corrupt);
+  if (IsLost(fault)) AddSaturating(state.counters.corrupt);
   return fault;
 } catch (const std::exception& error) {
   return MakeFault(Status::kIoError, "%s: %s", options_.path.c_str(), error.what());

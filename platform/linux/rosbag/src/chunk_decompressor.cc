@@ -72,7 +72,8 @@ Fault Decompress(std::string_view compression, std::span<const std::uint8_t> pac
   return {};
 }
 
-Fault DecompressMessage(std::vector<std::uint8_t>& unpacked, std::span<std::uint8_t>& message) {
+Fault DecompressMessage(std::vector<std::uint8_t>& unpacked, std::span<std::uint8_t>& message,
+                        UnpackedTotal& total, std::uint64_t read_bytes) {
   // No message of CDR begins so: its first byte is zero.
   constexpr std::array<std::uint8_t, 4> kZstd{0x28, 0xB5, 0x2F, 0xFD};
   if (message.size() < kZstd.size() || !std::equal(kZstd.begin(), kZstd.end(), message.begin()))
@@ -80,6 +81,7 @@ Fault DecompressMessage(std::vector<std::uint8_t>& unpacked, std::span<std::uint
   const unsigned long long size = ZSTD_getFrameContentSize(message.data(), message.size());
   // What is not known, or no frame at all, is a number beyond all bounds.
   if (size > kMostMessageBytes) return Damaged("zstd");
+  if (!total.Add(size, read_bytes)) return MakeFault(Status::kCorrupt, UnpackedTotal::kRefusal);
   unpacked.resize(static_cast<std::size_t>(size));
   const Fault fault = DecompressZstd(message, unpacked);
   message = unpacked;

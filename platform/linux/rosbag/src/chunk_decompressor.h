@@ -10,6 +10,28 @@
 
 namespace disflow::posix {
 
+/// How much a file unpacks to. Bytes that were made for it pack a million times over, so that a
+/// megabyte would keep its reader busy for minutes; what cameras see, even of a scene without
+/// noise and with little in it, does not pack two thousand times over for long.
+class UnpackedTotal {
+ public:
+  static constexpr std::uint64_t kFree_bytes = std::uint64_t{256} << 20U;
+  static constexpr std::uint64_t kMostTimes = 2000;
+  static constexpr const char* kRefusal =
+      "what is packed there is too long for so short a file, so it is left out";
+
+  /// @param read_bytes Of the file, this included.
+  /// @return False if it must not be unpacked; nothing is added then.
+  [[nodiscard]] bool Add(std::uint64_t unpacked_bytes, std::uint64_t read_bytes) noexcept {
+    const bool fits = total_bytes_ + unpacked_bytes <= kFree_bytes + kMostTimes * read_bytes;
+    if (fits) total_bytes_ += unpacked_bytes;
+    return fits;
+  }
+
+ private:
+  std::uint64_t total_bytes_ = 0;
+};
+
 /// Unpacks what MCAP and bags pack: `lz4` (its frame format), `zstd`, `bz2`,
 /// or nothing.
 /// @param unpacked Is made as long as it has to become; the caller has bounded that.
@@ -20,7 +42,9 @@ namespace disflow::posix {
 
 /// Unpacks a message that rosbag2 has packed by itself, if it has.
 /// @param message Is pointed to `unpacked` then.
+/// @param read_bytes Of the file, this message included.
 [[nodiscard]] hal::Fault DecompressMessage(std::vector<std::uint8_t>& unpacked,
-                                           std::span<std::uint8_t>& message);
+                                           std::span<std::uint8_t>& message, UnpackedTotal& total,
+                                           std::uint64_t read_bytes);
 
 }  // namespace disflow::posix

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "chunk_decompressor.h"
 #include "mcap_format.h"
 
 namespace disflow::posix {
@@ -165,6 +164,7 @@ Fault McapReader::OpenChunk(const Record& record) {
   const auto packed = cursor.TakeBytes(cursor.Take<std::uint64_t>());
   if (!cursor.ok()) return file_.Corrupt(record.begin, "a chunk is not whole");
   if (size > kMostMessageBytes) return file_.Corrupt(record.begin, "a chunk is too long");
+  if (!total_.Add(size, at_)) return file_.Corrupt(record.begin, UnpackedTotal::kRefusal);
   chunk_.resize(static_cast<std::size_t>(size));
   fault = Decompress(compression, packed, chunk_);
   if (!fault.ok()) return file_.Corrupt(record.begin, fault.message);
@@ -197,7 +197,7 @@ Fault McapReader::TakeRecord(std::uint8_t opcode, std::span<std::uint8_t> conten
   message.serialization = channel->second.serialization;
   message.type = channel->second.type;
   message.data = cursor.rest();
-  const Fault fault = DecompressMessage(message_, message.data);
+  const Fault fault = DecompressMessage(message_, message.data, total_, at_);
   found = fault.ok();
   return found ? fault : file_.Corrupt(at_, fault.message);
 }

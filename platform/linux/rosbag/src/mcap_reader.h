@@ -10,6 +10,7 @@
 #include "bag_file.h"
 #include "bag_reader.h"
 #include "byte_cursor.h"
+#include "chunk_decompressor.h"
 #include "topic_names.h"
 
 namespace disflow::posix {
@@ -58,6 +59,7 @@ class McapReader final : public BagReader {
   bool has_checksum_ = false;  ///< Of the data section.
   std::uint64_t checked_ = 0;  ///< Bytes that are in checksum_.
   std::uint32_t checksum_ = 0;
+  UnpackedTotal total_;
   std::vector<std::uint8_t> content_;
   std::vector<std::uint8_t> message_;  ///< Unpacked by itself.
   std::vector<std::uint8_t> chunk_;

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "chunk_decompressor.h"
-
 namespace disflow::posix {
 namespace {
 
@@ -114,6 +112,7 @@ Fault Ros1Reader::TakeFromFile(BagMessage& message, bool& found) {
 
 Fault Ros1Reader::OpenChunk(const Header& header, std::span<std::uint8_t> data) {
   if (header.size > kMostMessageBytes) return file_.Corrupt(chunk_begin_, "a chunk is too long");
+  if (!total_.Add(header.size, at_)) return file_.Corrupt(chunk_begin_, UnpackedTotal::kRefusal);
   chunk_.resize(header.size);
   const std::string_view compression =
       header.compression == "none" ? std::string_view() : header.compression;

@@ -9,6 +9,7 @@
 #include "bag_file.h"
 #include "bag_reader.h"
 #include "byte_cursor.h"
+#include "chunk_decompressor.h"
 #include "topic_names.h"
 
 namespace disflow::posix {
@@ -47,6 +48,7 @@ class Ros1Reader final : public BagReader {
   std::string topic_;
   std::uint64_t at_ = 0;  ///< Where the next record begins.
   bool closed_ = true;    ///< Its recorder came to its end.
+  UnpackedTotal total_;
   std::vector<std::uint8_t> header_;
   std::vector<std::uint8_t> data_;
   std::vector<std::uint8_t> chunk_;

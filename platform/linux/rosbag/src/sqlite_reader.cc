@@ -3,8 +3,6 @@
 
 #include <string_view>
 
-#include "chunk_decompressor.h"
-
 namespace disflow::posix {
 namespace {
 
@@ -102,7 +100,8 @@ Fault SqliteReader::Next(BagMessage& message) {
     message.serialization = Serialization::kCdr;
     message.type = type_;
     message.data = row_;
-    const Fault fault = DecompressMessage(message_, message.data);
+    read_bytes_ += row_.size();
+    const Fault fault = DecompressMessage(message_, message.data, total_, read_bytes_);
     if (fault.ok()) return fault;
     return MakeFault(fault.status, "%s: a message of %s: %s", file_.c_str(), type_.c_str(),
                      fault.message);

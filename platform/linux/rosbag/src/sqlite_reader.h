@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bag_reader.h"
+#include "chunk_decompressor.h"
 #include "topic_names.h"
 
 namespace disflow::posix {
@@ -37,6 +38,8 @@ class SqliteReader final : public BagReader {
   std::unique_ptr<sqlite3, Close> database_;
   Statement messages_;  ///< Of the topic; null if it is not there.
   std::string type_;
+  UnpackedTotal total_;
+  std::uint64_t read_bytes_ = 0;  ///< Of messages, as they are in the file.
   std::vector<std::uint8_t> row_;
   std::vector<std::uint8_t> message_;  ///< Unpacked.
   TopicNames names_;
