@@ -47,7 +47,7 @@ commit_all one
 [ "$(parts | cut -d ' ' -f 1 | sort | uniq -d)" = '' ] || fail "a part is there twice"
 [ "$(parts | grep -cvE '^[a-z-]+ +[0-9]+ (test|fuzz|package) ?')" -eq 0 ] || fail "a part is none"
 [ "$(quick_parts | cut -c 1-15)" = "$(parts | cut -c 1-15)" ] || fail "--quick has other parts"
-[ "$(quick_parts | grep -cE -- 'fuzz 60$|--soak --minutes 3|--repeat 2 ')" -eq 6 ] || fail "--quick is as long"
+[ "$(quick_parts | grep -cE -- 'fuzz 60$|--soak --minutes 5|--repeat 2 ')" -eq 6 ] || fail "--quick is as long"
 
 # --- a part that fails does not end the rest, and is named
 parts() { printf '%s\n' 'first 1 bad thing' 'second 1 good thing'; }
