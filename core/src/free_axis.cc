@@ -9,7 +9,7 @@ namespace {
 // The surface beside an axis is learnt in a second of turning; longer averages would hold on to
 // what was wrong before.
 constexpr int kMostFrames = 30;
-constexpr int kFewestFrames = 5;
+constexpr int kFewestFrames = 10;
 // cos^2 of 18 degrees between directions of turns.
 constexpr float kSame = 0.9F;
 

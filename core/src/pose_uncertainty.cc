@@ -78,7 +78,8 @@ PoseUncertainty FindPoseUncertainty(const RegistrationInformation& information,
 }
 
 Twist KnownTwist(const Twist& twist, const Mat6& free_turn, float unobserved_s) noexcept {
-  constexpr float kLongest_s = 0.6F;  // a turn may then be anything
+  // Of bottles the turn about their axis is often not told for a second, and still known.
+  constexpr float kLongest_s = 1.5F;
   constexpr float kLittle = 100.0F;   // of which a hundredth is left
   if (free_turn.isZero(0.0F) || unobserved_s < kLongest_s) return twist;
   Vec6 per_unit = Vec6::Constant(1.0F / kAnyRate_rps);

@@ -73,13 +73,13 @@ TEST(PoseUncertainty, TurnOfACan_IsUnobservedThoughGradientsSeemToTellIt) {
 TEST(KnownTwist, TurnAboutAFreeAxis_IsLeftOutOnceNothingToldItForLong) {
   const Mat6 free_turn = FindPoseUncertainty(SeenBody(0.02F), kGradientStd_rad).free_turn;
   const Twist twist{Vec3(0.1F, -0.2F, 0.3F), Vec3(0.5F, 1.0F, 7.0F)};
-  const Twist known = KnownTwist(twist, free_turn, 1.0F);
+  const Twist known = KnownTwist(twist, free_turn, 2.0F);
   EXPECT_LT(std::abs(known.angular_rps.z()), 0.1F * twist.angular_rps.z());
   EXPECT_LT((known.angular_rps - twist.angular_rps).head<2>().norm(), 0.15F);
   EXPECT_LT((known.linear_mps - twist.linear_mps).norm(), 0.02F);
   // What was known a moment ago still is.
-  EXPECT_EQ(KnownTwist(twist, free_turn, 0.3F).angular_rps, twist.angular_rps);
-  EXPECT_EQ(KnownTwist(twist, Mat6::Zero(), 1.0F).angular_rps, twist.angular_rps);
+  EXPECT_EQ(KnownTwist(twist, free_turn, 1.0F).angular_rps, twist.angular_rps);
+  EXPECT_EQ(KnownTwist(twist, Mat6::Zero(), 2.0F).angular_rps, twist.angular_rps);
 }
 
 TEST(KnownTwist, OfAPointBesideTheAxis_LosesWhatTheTurnMovedItBy) {
@@ -89,7 +89,7 @@ TEST(KnownTwist, OfAPointBesideTheAxis_LosesWhatTheTurnMovedItBy) {
   const Vec3 turn_rps(0.0F, 0.0F, 5.0F);
   const Vec3 moves_mps(0.0F, 0.0F, 0.2F);
   const Twist known =
-      KnownTwist({Vec3(moves_mps + turn_rps.cross(beside_m)), turn_rps}, free_turn, 1.0F);
+      KnownTwist({Vec3(moves_mps + turn_rps.cross(beside_m)), turn_rps}, free_turn, 2.0F);
   EXPECT_LT((known.linear_mps - moves_mps).norm(), 0.06F);
   EXPECT_LT(known.angular_rps.norm(), 0.5F);
 }
