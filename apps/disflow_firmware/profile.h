@@ -20,7 +20,7 @@ struct Small {
   static constexpr int kMaxClusters = 224;
   static constexpr int kMaxSamplesPerCluster = 16;
   static constexpr int kMaxTrainingSamples = 12;
-  static constexpr int kMaxModelEdges = 184;
+  static constexpr int kMaxModelEdges = 182;
   static constexpr int kMaxSeenViews = 3;
   static constexpr int kSeenCells = 20;
   static constexpr int kMaxRegistrationPoints = 200;

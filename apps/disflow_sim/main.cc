@@ -208,10 +208,11 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", "disflow_sim " DISFLOW_VERSION " (" DISFLOW_BUILD ")");
   app.add_option("OUT_DIR", arguments.out_dir, "Folder to write; created if it does not exist")
       ->required();
-  app.add_option("--object", arguments.object,
-                 "box, bottle, can, doughnut, rounded-box, flat-box, mug, bowl, tube, superellipsoid, "
-                 "screwdriver, bracket, spray-bottle or FILE.obj, or several "
-                 "joined by +, the nearest first [box]");
+  app.add_option(
+      "--object", arguments.object,
+      "box, bottle, can, doughnut, rounded-box, flat-box, mug, bowl, tube, superellipsoid, "
+      "screwdriver, bracket, spray-bottle or FILE.obj, or several "
+      "joined by +, the nearest first [box]");
   for (const auto& option : disflow::host::ListSimulationOptions()) {
     if (option.key == kMaskKey) continue;
     const std::string key(option.key);

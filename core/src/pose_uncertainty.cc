@@ -80,15 +80,15 @@ PoseUncertainty FindPoseUncertainty(const RegistrationInformation& information,
 Twist KnownTwist(const Twist& twist, const Mat6& free_turn, float unobserved_s) noexcept {
   // Of bottles the turn about their axis is often not told for a second, and still known.
   constexpr float kLongest_s = 1.5F;
-  constexpr float kLittle = 100.0F;   // of which a hundredth is left
+  constexpr float kLittle = 100.0F;  // of which a hundredth is left
   if (free_turn.isZero(0.0F) || unobserved_s < kLongest_s) return twist;
   Vec6 per_unit = Vec6::Constant(1.0F / kAnyRate_rps);
   per_unit.head<3>().setConstant(1.0F / kAnySpeed_mps);
   Vec6 rate;
   rate.head<3>() = twist.linear_mps;
   rate.tail<3>() = twist.angular_rps;
-  const Eigen::LLT<Mat6> held(
-      Mat6::Identity() + kLittle * per_unit.asDiagonal() * free_turn * per_unit.asDiagonal());
+  const Eigen::LLT<Mat6> held(Mat6::Identity() +
+                              kLittle * per_unit.asDiagonal() * free_turn * per_unit.asDiagonal());
   const Vec6 known = held.solve(Vec6(rate.cwiseProduct(per_unit))).cwiseQuotient(per_unit);
   if (held.info() != Eigen::Success || !known.allFinite()) return twist;
   return {known.head<3>(), known.tail<3>()};

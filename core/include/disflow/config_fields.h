@@ -49,9 +49,10 @@ constexpr void VisitFields(ConfigType& config, Visitor&& visitor) {
   field("segmenter.mask_delay_s", seg.mask_delay_s, 0.0, 1.0, "s",
         "how much older than its image a given mask may be: the tolerance grows by what the object "
         "moves in the image meanwhile");
-  field("segmenter.velocity_change_mps", seg.velocity_change_mps, 0.0, 10.0, "m/s",
-        "by how much the object's velocity may change between two images; so far per second since it "
-        "was last seen it is looked for about its prediction, at least within model_margin_m");
+  field(
+      "segmenter.velocity_change_mps", seg.velocity_change_mps, 0.0, 10.0, "m/s",
+      "by how much the object's velocity may change between two images; so far per second since it "
+      "was last seen it is looked for about its prediction, at least within model_margin_m");
   field("segmenter.lost_margin_m", seg.lost_margin_m, 0.0, 1.0, "m",
         "added to model_margin_m at most, however long the object has not been seen");
   fixed("segmenter.roi_x_px", seg.roi_x_px, 0, 8192, "px", "region of interest, left edge");

@@ -112,7 +112,6 @@ class Tracker {
     Mat6 reported = Mat6::Zero();    ///< With the drift of the model since its first view.
     /// Of the twist, along what no surface tells.
     Mat6 twist_unobserved = Mat6::Zero();
-    Mat6 free_turn = Mat6::Zero();  ///< What of it is a turn about an axis of the object's own.
     Mat6 unobserved_o = Mat6::Zero();  ///< The same as this frame says it, in object axes.
     Mat6 free_turn_o = Mat6::Zero();
     bool complete = true;    ///< The frame tells of all directions.
@@ -138,6 +137,7 @@ class Tracker {
   [[nodiscard]] bool IsSameObjectFrame(const DepthFrame& frame,
                                        const PoseObjectFromCamera& T_oc) const noexcept;
   void Coast(StampNs stamp_ns, Estimate& estimate) const noexcept;
+  [[nodiscard]] Mat6 Steadied(const Mat6& unobserved_o, const Mat6& free_turn_o) const noexcept;
   [[nodiscard]] Mat6 TwistCovariance(const TwistFilter& filter) const noexcept;
   [[nodiscard]] PoseCovariance CovarianceOf(const Aligned& aligned,
                                             const DepthFrame& frame) const noexcept;
@@ -168,11 +168,9 @@ class Tracker {
   PoseObjectFromCamera T_oc_previous_;  ///< Of the last registered frame.
 
   Mat6 registered_covariance_ = Mat6::Zero();  ///< Of the last registered pose.
-  float gradient_variance_rad2_ = 0.0F;   ///< Of the model's normals, as the last frames saw it.
-  Mat6 twist_unobserved_ = Mat6::Zero();  ///< What the surface did not tell of its twist then.
-  Mat6 free_turn_ = Mat6::Zero();
-  Mat6 unobserved_o_ = Mat6::Zero();  ///< Likewise, in object axes.
-  Mat6 free_turn_o_ = Mat6::Zero();
+  float gradient_variance_rad2_ = 0.0F;  ///< Of the model's normals, as the last frames saw it.
+  Mat6 unobserved_o_ = Mat6::Zero();  ///< What the surface did not tell of its twist, object axes.
+  Mat6 free_turn_o_ = Mat6::Zero();   ///< What of it is a turn about an axis of the object's own.
   FreeAxis free_axis_;
   int observed_frames_ = 0;  ///< In a row that told of all directions, up to kFramesUntilObserved.
   StampNs observed_ns_ = 0;  ///< When the surface last told the pose in all directions.

@@ -245,8 +245,6 @@ void Tracker<Limits>::StartAt(StampNs stamp_ns, const PoseObjectFromCamera& T_oc
   T_oc_previous_ = T_oc;
   registered_covariance_ = variance * Mat6::Identity();
   gradient_variance_rad2_ = 0.0F;
-  twist_unobserved_.setZero();
-  free_turn_.setZero();
   unobserved_o_.setZero();
   free_turn_o_.setZero();
   twist_filter_.Start(config_.twist, stamp_ns, T_oc.Inverse(), registered_covariance_);
@@ -267,8 +265,6 @@ void Tracker<Limits>::MoveTo(StampNs stamp_ns, const PoseObjectFromCamera& T_oc)
   twist_filter_.Predict(stamp_ns);
   twist_filter_.Update(T_oc.Inverse(), kKnownPoseVariance * Mat6::Identity());
   registered_covariance_ = twist_filter_.pose_covariance();
-  twist_unobserved_.setZero();
-  free_turn_.setZero();
   unobserved_o_.setZero();
   free_turn_o_.setZero();
   observed_ns_ = stamp_ns;
@@ -326,7 +322,9 @@ Status Tracker<Limits>::Finish(Status status, const DepthFrame& frame,
 template <CapacityProfile Limits>
 void Tracker<Limits>::Report(const PoseCameraFromObject& T_co, Estimate& estimate) const noexcept {
   estimate.T_co = T_co;
-  estimate.twist = KnownTwist(twist_filter_.twist(), free_turn_,
+  // What noise turned it about is what the frame said itself.
+  const Mat6 free_turn = RotatedCovariance(free_turn_o_, T_oc_.rotation().transpose());
+  estimate.twist = KnownTwist(twist_filter_.twist(), free_turn,
                               Seconds(SpanNs(observed_ns_, twist_filter_.stamp_ns())));
   estimate.state = monitor_.state();
   estimate.quality = monitor_.quality();

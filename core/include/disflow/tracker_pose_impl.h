@@ -101,7 +101,7 @@ Status Tracker<Limits>::Conclude(const DepthFrame& frame, Status observed, const
       evidence.in_view && near && evidence.registered && monitor_.Explains(evidence);
   if (followed || explained) ForgetContradicted(frame, aligned.T_oc, estimate);
   const bool recognised = evidence.in_view && !near && monitor_.Recognises(evidence);
-  const bool found_again = 
+  const bool found_again =
       recognition_.Confirm(recognised, aligned.T_oc, aligned.center_c, frame.stamp_ns);
   const bool looked_twice = recognition_.suspected();
   recognition_.DropSuspicion();
@@ -149,8 +149,6 @@ void Tracker<Limits>::Follow(StampNs stamp_ns, const Aligned& aligned,
   registered_covariance_ = covariance.reported;
   gradient_variance_rad2_ =
       RememberGradientVariance(gradient_variance_rad2_, aligned.information.gradient_variance_rad2);
-  twist_unobserved_ = covariance.twist_unobserved;
-  free_turn_ = covariance.free_turn;
   unobserved_o_ = covariance.unobserved_o;
   free_turn_o_ = covariance.free_turn_o;
   free_axis_.Learn(covariance.free_turn_o);
@@ -229,7 +227,15 @@ void Tracker<Limits>::Coast(StampNs stamp_ns, Estimate& estimate) const noexcept
 template <CapacityProfile Limits>
 Mat6 Tracker<Limits>::TwistCovariance(const TwistFilter& filter) const noexcept {
   constexpr float kAlike = 1.5F;
-  return kAlike * filter.twist_covariance() + twist_unobserved_;
+  const Mat6 unobserved_o = Steadied(unobserved_o_, free_turn_o_);
+  return kAlike * filter.twist_covariance() +
+         RotatedCovariance(unobserved_o, T_oc_.rotation().transpose());
+}
+
+/// What a frame left unobserved, with the axis that turns freely where the frames before saw it.
+template <CapacityProfile Limits>
+Mat6 Tracker<Limits>::Steadied(const Mat6& unobserved_o, const Mat6& free_turn_o) const noexcept {
+  return unobserved_o - free_turn_o + free_axis_.Steadied(free_turn_o);
 }
 
 /// Covariances of (origin's position, rotation) in camera axes.
@@ -275,11 +281,8 @@ typename Tracker<Limits>::PoseCovariance Tracker<Limits>::CovarianceOf(
     result.unobserved_o = unobserved_o_;
     result.free_turn_o = free_turn_o_;
   }
-  const Mat6 steadied_o = free_axis_.Steadied(result.free_turn_o);
-  // What noise turned it about is what the frame says itself.
-  result.free_turn = RotatedCovariance(result.free_turn_o, R_co);
   result.twist_unobserved =
-      RotatedCovariance(result.unobserved_o - result.free_turn_o + steadied_o, R_co);
+      RotatedCovariance(Steadied(result.unobserved_o, result.free_turn_o), R_co);
   result.complete = uncertainty.IsComplete();
   if (!result.twist_unobserved.isZero(0.0F)) {
     const Mat6 turned = unobserved_s * unobserved_s * result.twist_unobserved;

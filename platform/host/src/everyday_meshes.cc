@@ -70,8 +70,7 @@ TriangleMesh MeshSheet(std::span<const Corner> corners, double corner_m, double 
   return MeshTube(columns, kRows, false, [&](double angle, int row) {
     const bool below = row <= kPerEdge;
     const double side = below ? -1.0 : 1.0;
-    if (row == 0 || row == kRows - 1)
-      return Vec3d(middle_m.x(), middle_m.y(), side * half_width_m);
+    if (row == 0 || row == kRows - 1) return Vec3d(middle_m.x(), middle_m.y(), side * half_width_m);
     const int step = below ? row - 1 : kRows - 2 - row;
     const double up_rad = 0.5 * pi * step / (kPerEdge - 1);  // 0: on the flat side
     const int column = static_cast<int>(std::lround(angle / (2.0 * pi) * columns));
@@ -119,11 +118,10 @@ TriangleMesh MakeTube() {
   const double middle_m = kRadius_m - kRim_m;
   AppendArc(profile, {middle_m, kHalfLength_m - kRim_m}, kRim_m, 0.0, pi, kArcSteps);
   AppendArc(profile, {middle_m, kRim_m - kHalfLength_m}, kRim_m, pi, 2.0 * pi, kArcSteps);
-  return MeshTube(
-      120, static_cast<int>(profile.size()), true, [&profile](double angle, int row) {
-        const ProfilePoint& point = profile[static_cast<std::size_t>(row)];
-        return Vec3d(point.radius_m * std::cos(angle), point.radius_m * std::sin(angle), point.z_m);
-      });
+  return MeshTube(120, static_cast<int>(profile.size()), true, [&profile](double angle, int row) {
+    const ProfilePoint& point = profile[static_cast<std::size_t>(row)];
+    return Vec3d(point.radius_m * std::cos(angle), point.radius_m * std::sin(angle), point.z_m);
+  });
 }
 
 TriangleMesh MakeSuperellipsoid() {
@@ -181,16 +179,14 @@ TriangleMesh MakeBracket() {
   constexpr double kFillet_m = 0.004;
   constexpr double kEdge_m = 0.001;
   // Around the L, the corner of its legs at the origin.
-  constexpr std::array<Corner, 6> kCorners{
-      {{kCorner_m, kCorner_m, -pi},
-       {kLong_m - kCorner_m, kCorner_m, -0.5 * pi},
-       {kLong_m - kCorner_m, kSheet_m - kCorner_m, 0.0},
-       {kSheet_m + kFillet_m, kSheet_m + kFillet_m, 0.5 * pi},
-       {kSheet_m - kCorner_m, kShort_m - kCorner_m, 0.0},
-       {kCorner_m, kShort_m - kCorner_m, 0.5 * pi}}};
+  constexpr std::array<Corner, 6> kCorners{{{kCorner_m, kCorner_m, -pi},
+                                            {kLong_m - kCorner_m, kCorner_m, -0.5 * pi},
+                                            {kLong_m - kCorner_m, kSheet_m - kCorner_m, 0.0},
+                                            {kSheet_m + kFillet_m, kSheet_m + kFillet_m, 0.5 * pi},
+                                            {kSheet_m - kCorner_m, kShort_m - kCorner_m, 0.0},
+                                            {kCorner_m, kShort_m - kCorner_m, 0.5 * pi}}};
   const Vec3d middle(0.5 * kSheet_m, 0.5 * kSheet_m, 0.0);
-  TriangleMesh mesh =
-      MeshSheet(kCorners, kCorner_m, kFillet_m, 3, middle, kHalfWidth_m, kEdge_m);
+  TriangleMesh mesh = MeshSheet(kCorners, kCorner_m, kFillet_m, 3, middle, kHalfWidth_m, kEdge_m);
   MoveCentreToOrigin(mesh);
   return mesh;
 }
@@ -207,8 +203,8 @@ TriangleMesh MakeSprayBottle() {
   for (int i = 1; i <= 90; ++i) {
     const double z = 0.006 + (kNeck_m - 0.006) * i / 90;
     const double neck = Step(z, kShoulder_m - 0.02, kNeck_m);
-    sections.push_back({z, 0.046 * (1.0 - neck) + 0.013 * neck, 0.029 * (1.0 - neck) + 0.013 * neck,
-                        3.0 - neck});
+    sections.push_back(
+        {z, 0.046 * (1.0 - neck) + 0.013 * neck, 0.029 * (1.0 - neck) + 0.013 * neck, 3.0 - neck});
   }
   TriangleMesh mesh = MeshSections(sections, 160);
   // Collar, head and nozzle reach into each other, the trigger into the head.

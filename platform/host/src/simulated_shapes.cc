@@ -19,8 +19,7 @@ double DrawnEdgeRadius(ObjectKind object) {
 TriangleMesh MakeObjectMesh(ObjectKind object) { return MakeObjectMesh(object, {}); }
 
 TriangleMesh MakeObjectMesh(ObjectKind object, const SimulationOptions& options) {
-  const double edge_m =
-      options.edge_mm > 0.0 ? kMmToM * options.edge_mm : DrawnEdgeRadius(object);
+  const double edge_m = options.edge_mm > 0.0 ? kMmToM * options.edge_mm : DrawnEdgeRadius(object);
   const auto bulged = [&](TriangleMesh mesh, double edge_radius_m) {
     if (options.bulge_mm > 0.0) BulgeFaces(mesh, edge_radius_m, kMmToM * options.bulge_mm);
     return mesh;

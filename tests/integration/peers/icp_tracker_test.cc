@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "disflow/host/simulated_shapes.h"
 #include "icp_tracker.h"
 
 #include <gtest/gtest.h>
 
+#include "disflow/host/simulated_shapes.h"
 #include "disflow/host/simulation.h"
 
 namespace disflow::bench {

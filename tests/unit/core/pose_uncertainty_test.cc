@@ -171,7 +171,8 @@ TEST(PoseUncertainty, Plane_LeavesItsTwoShiftsAndItsTurnUnobserved) {
 TEST(PoseUncertainty, ShiftOfAPlane_IsNoTurnAboutAnAxis) {
   NormalSums sums;
   for (int i = 0; i < 200; ++i) {
-    const Vec3 point_m(0.01F * static_cast<float>(i % 20), 0.01F * static_cast<float>(i / 20), 0.0F);
+    const Vec3 point_m(0.01F * static_cast<float>(i % 20), 0.01F * static_cast<float>(i / 20),
+                       0.0F);
     sums.Add(point_m - Vec3(0.095F, 0.045F, 0.0F), Vec3::UnitZ(), 0.0F, 1e6F);
   }
   NormalEquations equations;

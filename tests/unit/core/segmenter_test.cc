@@ -407,7 +407,8 @@ TEST_F(LaterFrame, TableThatTheModelAndTheMaskShare_IsNotFollowedBeyondTheTolera
 
 TEST_F(LaterFrame, Doubt_WidensTheReach) {
   DepthScene scene(2.2F);
-  // 6 cm beside the prediction: farther than model_margin_m, nearer than after two frames without it.
+  // 6 cm beside the prediction: farther than model_margin_m, nearer than after two frames without
+  // it.
   const int shift_px = static_cast<int>(0.06F * DepthScene::kFocal_px / kObject_m);
   scene.Rectangle(
       {kObject.u_min + shift_px, kObject.v_min, kObject.u_max + shift_px, kObject.v_max},

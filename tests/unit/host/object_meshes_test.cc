@@ -60,7 +60,8 @@ INSTANTIATE_TEST_SUITE_P(
                     KnownObject{"Bottle", MakeMustardBottle, {0.095, 0.058, 0.191}},
                     KnownObject{"Can", MakeCan, {0.102, 0.102, 0.140}},
                     KnownObject{"Doughnut", MakeDoughnut, {0.120, 0.120, 0.040}},
-                    KnownObject{"RoundedBox", [] { return MakeRoundedBox(); }, {0.160, 0.070, 0.200}},
+                    KnownObject{
+                        "RoundedBox", [] { return MakeRoundedBox(); }, {0.160, 0.070, 0.200}},
                     KnownObject{"FlatBox", [] { return MakeFlatBox(); }, {0.090, 0.075, 0.030}},
                     KnownObject{"Mug", MakeMug, {0.116, 0.084, 0.095}},
                     KnownObject{"Bowl", MakeBowl, {0.1483, 0.1483, 0.0601}},

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "disflow/host/simulated_sensor.h"
-#include "disflow/host/simulated_shapes.h"
 
 #include <gtest/gtest.h>
+
+#include "disflow/host/simulated_shapes.h"
 
 namespace disflow::host {
 namespace {

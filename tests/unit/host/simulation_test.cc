@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "disflow/host/simulated_shapes.h"
 #include "disflow/host/simulation.h"
 
 #include <gtest/gtest.h>
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include "box_ray.h"
+#include "disflow/host/simulated_shapes.h"
 #include "disflow/host/stereo_camera.h"
 
 namespace disflow::host {

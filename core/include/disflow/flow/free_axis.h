@@ -5,10 +5,10 @@
 
 namespace disflow {
 
-/// The axis about which nothing tells an object's turn. It is the object's own, so what single frames
-/// say of where it lies is averaged in the object frame; how they differ is how well it is known.
-/// That matters where the turn may be anything: an axis that is off by a degree, and a turn of a
-/// hundred, tilt the object by two.
+/// The axis about which nothing tells an object's turn. It is the object's own, so what single
+/// frames say of where it lies is averaged in the object frame; how they differ is how well it is
+/// known. That matters where the turn may be anything: an axis that is off by a degree, and a turn
+/// of a hundred, tilt the object by two.
 class FreeAxis {
  public:
   void Forget() noexcept { frames_ = 0; }

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "disflow/host/simulated_shapes.h"
 #include "objects/object_channel.h"
 
 #include <gtest/gtest.h>
@@ -7,6 +6,7 @@
 #include <thread>
 
 #include "disflow/host/simulated_sensor.h"
+#include "disflow/host/simulated_shapes.h"
 #include "surface_mesh.h"
 
 namespace disflow::apps {

@@ -76,8 +76,8 @@ struct SimulationOptions {
   ObjectKind object = ObjectKind::kBox;
   std::string obj_file;                 ///< With ObjectKind::kObjFile.
   std::vector<SimulatedShape> further;  ///< Objects behind it, one behind the other.
-  double edge_mm = 0.0;   ///< Radius of the edges of rounded and flat boxes; 0 = 4 and 2 mm.
-  double bulge_mm = 0.0;  ///< By which the faces of boxes stand out in the middle.
+  double edge_mm = 0.0;    ///< Radius of the edges of rounded and flat boxes; 0 = 4 and 2 mm.
+  double bulge_mm = 0.0;   ///< By which the faces of boxes stand out in the middle.
   double uneven_mm = 0.0;  ///< Standard deviation of all surfaces from the drawn ones.
   MotionKind motion = MotionKind::kModerate;
   NoiseKind noise = NoiseKind::kClean;
