@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "disflow/flow/recognition.h"
 
+#include "disflow/saturating.h"
+
 namespace disflow {
 namespace {
 
@@ -10,6 +12,16 @@ constexpr float kFastest_rps = 10.0F;
 constexpr float kFastest_mps = 1.5F;
 
 }  // namespace
+
+void Recognition::Forget() noexcept {
+  patience_ = 0;
+  suspected_ = false;
+}
+
+void Recognition::Suspect(const PoseObjectFromCamera& T_oc) noexcept {
+  suspected_ = true;
+  T_oc_ = T_oc;
+}
 
 bool Recognition::Confirm(bool recognised, const PoseObjectFromCamera& T_oc, const Vec3& center_c,
                           StampNs stamp_ns) noexcept {

@@ -14,6 +14,87 @@
 namespace disflow {
 
 template <class Limits>
+template <class Explains>
+Status Segmenter<Limits>::Segment(const DepthFrame& frame, const SegmenterConfig& config,
+                                  const ModelPrior& prior, Explains&& explains, Mask& object,
+                                  MaskOverrun<Mask>& overrun, Counters& counters) noexcept {
+  object.Start(frame.depth.width_px, frame.depth.height_px);
+  overrun.Start(frame.depth.width_px, frame.depth.height_px);
+  contact_ = {};
+  if (frame.mask.given()) {
+    const PixelBox image{0, 0, frame.mask.width_px, frame.mask.height_px};
+    CopyMask(frame.mask, image, object);
+    if (object.count() == 0) return Status::kEmptyMask;
+    band_.Start(object, config, prior.motion_px);
+  }
+  if (!frame.mask.given() && config.grow_region == 0) {
+    TakeAll(frame, config, object);
+  } else {
+    if (frame.mask.given()) {
+      Look({}, frame, config, prior, explains, object);
+      counters.runs_dropped += static_cast<std::uint32_t>(surfaces_.dropped());
+      Redraw(frame, prior, explains, object);
+    } else {
+      counters.runs_dropped += LookAround(frame, config, prior, explains, object);
+    }
+  }
+  if (frame.mask.given()) {
+    band_.Restrict(object);
+    band_.FindOverrun([this](const auto& visit) { this->ForEachChosenRun(visit); }, overrun);
+  }
+  object.Finish();
+  return object.count() > 0 ? Status::kOk : Status::kNoValidDepth;
+}
+
+template <class Limits>
+void Segmenter<Limits>::CopyMask(const MaskView& given, const PixelBox& box,
+                                 Mask& object) noexcept {
+  for (int v = box.v_min; v < box.v_max; ++v)
+    object.SetFromBytes(v, box.u_min, box.u_max, given.row(v), given.label);
+  object.Finish();
+}
+
+template <class Limits>
+void Segmenter<Limits>::TakeAll(const DepthFrame& frame, const SegmenterConfig& config,
+                                Mask& object) noexcept {
+  const PixelBox box = RegionOfInterest(frame, config);
+  for (int v = box.v_min; v < box.v_max; ++v) object.row(v).SetRun(box.u_min, box.u_max);
+}
+
+template <class Limits>
+template <class Explains>
+void Segmenter<Limits>::Probe(const DepthReader& depth, const PinholeCamera& camera,
+                              Explains& explains, const PixelRun& run, SurfaceVote& vote) noexcept {
+  for (int u = run.u_begin + std::min(kProbeStepPx, run.length()) / 2; u < run.u_end;
+       u += kProbeStepPx) {
+    ProbePixel(depth, camera, explains, u, run.v, vote);
+  }
+}
+
+template <class Limits>
+template <class Explains>
+void Segmenter<Limits>::ProbePixel(const DepthReader& depth, const PinholeCamera& camera,
+                                   Explains& explains, int u, int v, SurfaceVote& vote) noexcept {
+  const float depth_m = depth.At(u, v);
+  if (depth_m <= 0.0F) return;
+  ++vote.probed;
+  if (explains(camera.BackProject(static_cast<float>(u), static_cast<float>(v), depth_m)))
+    ++vote.explained;
+}
+
+template <class Limits>
+template <class Explains>
+void Segmenter<Limits>::ProbeMasked(const DepthReader& depth, const PinholeCamera& camera,
+                                    Explains& explains, const PixelRun& run, const Mask& mask,
+                                    SurfaceVote& vote) noexcept {
+  constexpr int kOffset = kProbeStepPx / 2;
+  const int first = (run.u_begin - kOffset + kProbeStepPx - 1) / kProbeStepPx;
+  for (int u = first * kProbeStepPx + kOffset; u < run.u_end; u += kProbeStepPx) {
+    if (mask.row(run.v).Test(u)) ProbePixel(depth, camera, explains, u, run.v, vote);
+  }
+}
+
+template <class Limits>
 void Segmenter<Limits>::BuildSurfaces(const DepthFrame& frame, const SegmenterConfig& config,
                                       const ModelPrior& prior, const Mask& mask) noexcept {
   const DepthReader depth(frame.depth, config.min_range_m, config.max_range_m);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "disflow/geometry/transform.h"
-#include "disflow/saturating.h"
+#include "disflow/types.h"
 
 namespace disflow {
 
@@ -10,10 +10,7 @@ namespace disflow {
 /// three frames in a row recognise it at the same place.
 class Recognition {
  public:
-  void Forget() noexcept {
-    patience_ = 0;
-    suspected_ = false;
-  }
+  void Forget() noexcept;
   /// The object was recognised a moment ago; T_oc() is where.
   [[nodiscard]] bool pending() const noexcept { return patience_ > 0; }
   [[nodiscard]] const PoseObjectFromCamera& T_oc() const noexcept { return T_oc_; }
@@ -21,10 +18,7 @@ class Recognition {
   /// T_oc() is what a frame shows nearly: the object may be turned over.
   [[nodiscard]] bool suspected() const noexcept { return suspected_; }
   /// Looks there once more in the next frame.
-  void Suspect(const PoseObjectFromCamera& T_oc) noexcept {
-    suspected_ = true;
-    T_oc_ = T_oc;
-  }
+  void Suspect(const PoseObjectFromCamera& T_oc) noexcept;
   void DropSuspicion() noexcept { suspected_ = false; }
 
   /// @param recognised Whether a frame's pose is beyond doubt.
