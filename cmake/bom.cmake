@@ -49,6 +49,7 @@ file(CONFIGURE OUTPUT ${disflow_bom_settings} @ONLY CONTENT [[
 set(version "@PROJECT_VERSION@")
 set(description "@PROJECT_DESCRIPTION@")
 set(architecture "@disflow_debian_architecture@")
+set(debian_root "@DISFLOW_DEBIAN_ROOT@")
 set(components "@disflow_bom_components@")
 set(page_parts "@disflow_bom_page_parts@")
 set(page_lock "@PROJECT_SOURCE_DIR@/apps/view/package-lock.json")

@@ -4,7 +4,7 @@
 include(cmake/debian_architecture.cmake)
 set(disflow_missing "")
 set(disflow_missing_report "")
-# These are compiled, so a cross build needs those of its own architecture.
+# These are compiled, so a cross build needs those of its own architecture. (./dev has the same list, target_libraries.)
 set(disflow_compiled_packages
   libpng-dev libtinyobjloader-dev libtomlplusplus-dev libyaml-cpp-dev libcamera-dev cyclonedds-dev libwebsockets-dev
   liblz4-dev libzstd-dev libsqlite3-dev zlib1g-dev libbz2-dev)
@@ -64,7 +64,8 @@ if(DISFLOW_WITH_LIBCAMERA OR DISFLOW_WITH_VIEW OR DISFLOW_WITH_ROSBAG)
   disflow_need("${PkgConfig_FOUND}" pkg-config "to find libcamera, libwebsockets, lz4 and zstd")
   if(CMAKE_CROSSCOMPILING AND CMAKE_LIBRARY_ARCHITECTURE AND NOT DEFINED ENV{PKG_CONFIG_LIBDIR})
     # This machine's own libraries are of no use.
-    set(ENV{PKG_CONFIG_LIBDIR} "/usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/pkgconfig:/usr/share/pkgconfig")
+    set(ENV{PKG_CONFIG_LIBDIR} "${DISFLOW_DEBIAN_ROOT}/usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/pkgconfig:${DISFLOW_DEBIAN_ROOT}/usr/share/pkgconfig")
+    set(ENV{PKG_CONFIG_SYSROOT_DIR} "${DISFLOW_DEBIAN_ROOT}")
   endif()
 endif()
 if(DISFLOW_WITH_LIBCAMERA AND PkgConfig_FOUND)
@@ -135,6 +136,14 @@ endif()
 
 if(disflow_missing OR disflow_lacks_page_parts)
   set(remedy "")
+  set(unpacked ${disflow_missing})
+  list(FILTER unpacked INCLUDE REGEX ":")
+  list(FILTER disflow_missing EXCLUDE REGEX ":")
+  if(unpacked)
+    # Not all of them can be installed beside this machine's own.
+    list(JOIN disflow_compiled_packages " " packages)
+    string(APPEND remedy "    ${PROJECT_SOURCE_DIR}/toolchains/debian_root.sh ${disflow_debian_architecture} ${disflow_wanted_root} ${packages}\n")
+  endif()
   if(disflow_missing)
     list(JOIN disflow_missing " " packages)
     string(APPEND remedy "    apt-get install ${packages}\n")

@@ -4,20 +4,23 @@
 cmake_minimum_required(VERSION 3.25)
 include(${SETTINGS})
 
-# The installed version; empty on systems without dpkg and for libraries that lie in a folder of their own (armhf).
+# The version of what is installed, for another processor of what lies in the folder that its libraries are in; empty on
+# systems without dpkg.
 function(version_of package result)
   set(${result} "" PARENT_SCOPE)
   find_program(dpkg_query dpkg-query)
   if(NOT dpkg_query)
     return()
   endif()
-  foreach(name ${package}:${architecture} ${package}:all)
-    execute_process(COMMAND ${dpkg_query} -W -f "\${db:Status-Status} \${Version}" ${name}
-      OUTPUT_VARIABLE output ERROR_QUIET RESULT_VARIABLE status)
-    if(status EQUAL 0 AND output MATCHES "^installed (.+)$")
-      set(${result} ${CMAKE_MATCH_1} PARENT_SCOPE)
-      return()
-    endif()
+  foreach(database ${debian_root} "")
+    foreach(name ${package}:${architecture} ${package}:all)
+      execute_process(COMMAND ${dpkg_query} --admindir=${database}/var/lib/dpkg -W -f "\${db:Status-Status} \${Version}" ${name}
+        OUTPUT_VARIABLE output ERROR_QUIET RESULT_VARIABLE status)
+      if(status EQUAL 0 AND output MATCHES "^installed (.+)$")
+        set(${result} ${CMAKE_MATCH_1} PARENT_SCOPE)
+        return()
+      endif()
+    endforeach()
   endforeach()
 endfunction()
 

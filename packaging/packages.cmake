@@ -51,17 +51,16 @@ ${text}" PARENT_SCOPE)
 endfunction()
 
 set(soname_version ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
-set(dependencies PACKAGE_SHLIBDEPS ON)
-if(disflow_debian_architecture STREQUAL "armhf")
-  # Its libraries are in a folder that dpkg knows nothing about.
-  set(dependencies PACKAGE_DEPENDS
-    "libc6 (>= 2.34), libgcc-s1 (>= 4.3), libpng16-16 (>= 1.6.2), libstdc++6 (>= 12), libtinyobjloader2rc10, libtomlplusplus3, libyaml-cpp0.7")
+if(DISFLOW_DEBIAN_ROOT)
+  # Where dpkg-shlibdeps looks for the libraries; ./dev names it the database that knows their packages.
+  set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS
+    ${DISFLOW_DEBIAN_ROOT}/usr/lib/${CMAKE_LIBRARY_ARCHITECTURE} ${DISFLOW_DEBIAN_ROOT}/lib/${CMAKE_LIBRARY_ARCHITECTURE})
 endif()
 set(scripts ${CMAKE_CURRENT_SOURCE_DIR}/debian)
 disflow_package(programs disflow science "pose, twist and shape of a moving object from depth images"
 "This package holds the programs disflow_track, disflow_sim and
 disflow_eval, and a service for systemd."
-  ${dependencies} PACKAGE_SUGGESTS disflow-doc)
+  PACKAGE_SHLIBDEPS ON PACKAGE_SUGGESTS disflow-doc)
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_CONTROL_EXTRA ${scripts}/conffiles ${scripts}/postinst ${scripts}/prerm)
 disflow_package(documentation disflow-doc doc "pose, twist and shape of a moving object from depth images (documentation)"
 "This package holds the documentation: tutorials, guides, reference,

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Installs the packages of this project into an empty root and uses them there: packaging/try.sh FOLDER
-# Packages for another processor are only unpacked, and run under qemu-user.
+# Packages for another processor are only unpacked, and run under qemu-user with the libraries that they say they need.
 set -euo pipefail
 folder="$(realpath "$1")"
 tree="$(realpath "$(dirname "${BASH_SOURCE[0]}")/..")"
@@ -42,13 +42,16 @@ dynamic="$(readelf -d "$work/library/usr/lib/$multiarch/libdisflow.so.0.1")"
 grep -q 'SONAME.*\[libdisflow.so.0.1\]' <<<"$dynamic" || die "the SONAME is not libdisflow.so.0.1: $dynamic"
 ! grep NEEDED <<<"$dynamic" | grep -vE '\[(libc\.so\.6|libm\.so\.6|libgcc_s\.so\.1|ld-linux[^]]*)\]' || die "the library needs more than C's"
 
-# What the package for each processor must have; docs/deploy.md says what the ARM presets leave out and why.
-features() {
-  case "$architecture" in
-    arm64) echo "v4l2 libcamera serial udp mavlink" ;;
-    armhf) echo "v4l2 serial udp mavlink" ;;
-    *) echo "v4l2 libcamera serial udp mavlink dds rosbag view" ;;
-  esac
+# What the package for every processor must have.
+features="v4l2 libcamera serial udp mavlink dds rosbag view"
+suite="$(sed -n 's/^VERSION_CODENAME=//p' /etc/os-release)"
+
+# needed PACKAGE...: what they say they need, without versions and without each other.
+needed() {
+  local package
+  for package in "$@"; do
+    dpkg-deb -f "$package" Depends | tr ',' '\n' | awk 'NF && $1 !~ /^libdisflow/ {print $1}'
+  done | sort -u | paste -s -d ,
 }
 
 # try_track COMMAND...: asks what it was built with, tracks a simulated object, and tries the settings as installed.
@@ -56,7 +59,7 @@ try_track() {
   local version
   version="$("$@" --version)" || die "does not start"
   echo "$version"
-  [ "$(sed -n 's/^with: //p' <<<"$version")" = "$(features)" ] || die "built with something else than: $(features)"
+  [ "$(sed -n 's/^with: //p' <<<"$version")" = "$features" ] || die "built with something else than: $features"
   "$@" --sensor 'sim:box?frames=30&motion=fast' --headless 2>&1 | grep '30 with a measured pose' || die "does not track"
   local status=0
   "$@" --config "$config" 2>/dev/null || status=$?
@@ -82,13 +85,9 @@ print("python:", disflow.__version__, type(tracker).__name__)' || die "the Pytho
 }
 
 if [ -n "$native" ] && [ "$(id -u)" -eq 0 ] && command -v mmdebstrap >/dev/null; then
-  suite="$(sed -n 's/^VERSION_CODENAME=//p' /etc/os-release)"
   root="$work/clean"
   # What the packages say they need, and nothing else.
-  needed="$(for package in "$folder"/*.deb; do
-    dpkg-deb -f "$package" Depends | tr ',' '\n' | awk 'NF && $1 !~ /^libdisflow/ {print $1}'
-  done | sort -u | paste -s -d ,)"
-  mmdebstrap --quiet --variant=essential --include="$needed" "$suite" "$root" >/dev/null 2>"$work/log" || {
+  mmdebstrap --quiet --variant=essential --include="$(needed "$folder"/*.deb)" "$suite" "$root" >/dev/null 2>"$work/log" || {
     tail -n 20 "$work/log" >&2
     die "no empty $suite root could be made"
   }
@@ -106,10 +105,18 @@ if [ -n "$native" ] && [ "$(id -u)" -eq 0 ] && command -v mmdebstrap >/dev/null;
 else
   dpkg-deb -x "$programs" "$work/tree"
   config="$work/tree/etc/disflow/track.toml"
+  emulator=()
   case "$architecture" in
-    arm64) try_track qemu-aarch64 "$work/tree/usr/bin/disflow_track" ;;
-    armhf) try_track qemu-arm -L "${DISFLOW_ARMHF_ROOT:-/}" "$work/tree/usr/bin/disflow_track" ;;
-    *) try_track "$work/tree/usr/bin/disflow_track" ;;
+    arm64) emulator=(qemu-aarch64 -L "$work/needed") ;;
+    armhf) emulator=(qemu-arm -L "$work/needed") ;;
   esac
+  if [ ${#emulator[@]} -gt 0 ]; then
+    IFS=, read -r -a libraries <<<"$(needed "$programs")"
+    "$tree/toolchains/debian_root.sh" "$architecture" "$work/needed" "${libraries[@]}" >"$work/log" 2>&1 || {
+      tail -n 20 "$work/log" >&2
+      die "what $programs needs cannot be fetched"
+    }
+  fi
+  try_track "${emulator[@]}" "$work/tree/usr/bin/disflow_track"
   echo "$(basename "$programs"): unpacked and run"
 fi

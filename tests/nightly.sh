@@ -17,7 +17,9 @@ soak           120 test --soak
 clang          180 test --preset clang
 asan           240 test --preset asan
 fresh          120 test --fresh
+package-arm64  180 package aarch64
 package-armhf  180 package armhf
+ros2-arm64     240 test --ros2 --preset aarch64
 hil            240 test --hil
 soak-valgrind  360 test --soak --valgrind
 fuzz           240 fuzz 600

@@ -11,13 +11,9 @@ foreach(program disflow_track disflow_sim disflow_eval)
     continue()
   endif()
   set(page ${disflow_man}/${program}.1)
-  # help2man starts one command; an emulator with its options is none. Libraries are looked for as packaging/try.sh does.
+  # help2man starts one command; an emulator with its options is none.
   set(starter ${disflow_man}/${program})
-  set(emulator "")
-  if(CMAKE_CROSSCOMPILING_EMULATOR)
-    list(GET CMAKE_CROSSCOMPILING_EMULATOR 0 emulator)
-    string(APPEND emulator " -L \"\${DISFLOW_ARMHF_ROOT:-/}\"")
-  endif()
+  list(JOIN CMAKE_CROSSCOMPILING_EMULATOR " " emulator)
   file(GENERATE OUTPUT ${starter} CONTENT "#!/bin/sh\nexec ${emulator} $<TARGET_FILE:${program}> \"$@\"\n"
     FILE_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE)
   add_custom_command(OUTPUT ${page}.gz

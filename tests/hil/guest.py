@@ -6,6 +6,7 @@ import shutil
 import subprocess
 import tarfile
 
+import setting
 from kernel import Unavailable
 from newc import Archive
 
@@ -91,7 +92,9 @@ class Guest:
         """The program as /bin/NAME, with the libraries that it needs."""
         self._archive.add_file("bin/" + os.path.basename(path), path)
         for library in libraries(self._kernel.arch, path):
-            self._archive.add_file(library.lstrip("/"), os.path.realpath(library))
+            unpacked = setting.arm_root + library
+            found = unpacked if self._kernel.arch == "arm64" and os.path.exists(unpacked) else library
+            self._archive.add_file(library.lstrip("/"), os.path.realpath(found))
 
     def boot(self, script, timeout_s, serial=None, extra=()):
         """Runs the script and returns {name: bytes} of what it left in /out.
@@ -154,10 +157,10 @@ class Guest:
 
 
 def libraries(arch, program):
-    """Paths of the shared libraries and of the loader."""
+    """Paths of the shared libraries and of the loader, as the program sees them."""
     command = ["ldd", program]
     if arch == "arm64":
-        command = ["qemu-aarch64", "/lib/ld-linux-aarch64.so.1", "--list", program]
+        command = ["qemu-aarch64", "-L", setting.arm_root, setting.arm_root + "/lib/ld-linux-aarch64.so.1", "--list", program]
     listing = subprocess.run(command, capture_output=True, text=True, check=False)
     if listing.returncode != 0:
         return []  # static

@@ -2,5 +2,6 @@
 """Where things are, set by run.py, and what was measured."""
 programs = ""
 arm_programs = ""
+arm_root = ""
 folder = ""
 figures = []

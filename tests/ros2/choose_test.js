@@ -7,7 +7,7 @@ import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { decode, service, writerOf } from "./messages.js";
 import { Peer } from "./peer.js";
-import { bin, ddsType, domain, file, run, samplesOf, sleep } from "./program.js";
+import { ddsType, domain, file, ownBin, patience, run, samplesOf, sleep, until } from "./program.js";
 
 const kSize = { width: 320, height: 180 };
 const definition = service(new URL("../../platform/linux/dds/ros2/disflow_msgs/srv/ChooseObject.srv", import.meta.url));
@@ -23,11 +23,11 @@ let camera;
 
 before(async () => {
   const scene = ["--object", "box+bottle", "--motion", "static", "--width", String(kSize.width), "--height", String(kSize.height)];
-  execFileSync(join(bin, "disflow_sim"), [...scene, "--frames", "1", "--mask", "none", file("truth")]);
+  execFileSync(join(ownBin, "disflow_sim"), [...scene, "--frames", "1", "--mask", "none", file("truth")]);
   const poseOf = (name) => readFileSync(join(file("truth"), "gt", name, "poses.txt"), "utf8").split(" ").slice(0, 3).map(Number);
   truth = { box: poseOf("box"), bottle: poseOf("bottle") };
   camera = JSON.parse(readFileSync(join(file("truth"), "cam_K.json"), "utf8"));
-  peer = await Peer.start(join(bin, "ros2_peer"), domain);
+  peer = await Peer.start(join(ownBin, "ros2_peer"), domain);
   await peer.do("subscribe", odometry, ddsType("nav_msgs/Odometry"), "reliable", file("odometry"));
   child = run(
     "--sensor", "sim:box+bottle?motion=static&width=320&height=180&mask=none", "--rate", "realtime", "--frames", "20000", "--headless",
@@ -48,7 +48,7 @@ async function untilTracked(thing) {
     const { x, y, z } = decode(file("odometry"), "nav_msgs/Odometry").at(-1).pose.pose.position;
     return Math.hypot(...[x, y, z].map((value, i) => value - truth[thing][i]));
   };
-  for (let i = 0; i < 200 && off() > 0.12; ++i) await sleep(50);
+  await until(() => off() <= 0.12);
   assert.ok(off() < 0.12, `the ${thing} is ${off()} m off`);
 }
 
@@ -103,7 +103,7 @@ test("a point that is clicked in RViz chooses too, if it is in the camera's fram
   await click("rt/clicked_point", "eye", truth.box);
   await untilTracked("box");
   await click("rt/clicked_point", "nowhere", truth.bottle);
-  await sleep(500);
+  await sleep(500 * patience);
   await untilTracked("box");
   await click("rt/disflow/object/clicked_point", "eye", truth.bottle);
   await untilTracked("bottle");

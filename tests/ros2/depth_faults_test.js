@@ -8,7 +8,7 @@ import { rows } from "./frames.js";
 import { decode, graphEntry, writerOf } from "./messages.js";
 import { Peer } from "./peer.js";
 import { headerOf, Player, repeat } from "./player.js";
-import { bin, domain, file, run, samplesOf, sleep } from "./program.js";
+import { domain, file, ownBin, run, samplesOf, sleep, until } from "./program.js";
 import { trajectory } from "./trajectory.js";
 
 const camera = { width: 80, height: 60, fx: 80, fy: 80, cx: 40, cy: 30 };
@@ -17,7 +17,7 @@ const image = writerOf("sensor_msgs/Image");
 const tf = writerOf("tf2_msgs/TFMessage");
 const stamps = Array.from({ length: 40 }, (_, i) => 1789012345000000000n + BigInt(i) * 33333333n);
 let peer;
-before(async () => (peer = await Peer.start(join(bin, "ros2_peer"), domain)));
+before(async () => (peer = await Peer.start(join(ownBin, "ros2_peer"), domain)));
 after(() => peer.stop());
 
 /** A ball in front of a wall; no two images of it are the same. */
@@ -112,7 +112,7 @@ test("A driver that ends is waited for, and tracked on when it is back", async (
   for (const topic of ["image_rect_raw", "camera_info"]) {
     assert.equal(await peer.do("unpublish", `rt/restart/depth/${topic}`), "unpublished");
   }
-  for (let i = 0; i < 200 && !/waiting for it to come back/.test(player.child.said()); ++i) await sleep(50);
+  await until(() => /waiting for it to come back/.test(player.child.said()));
   assert.match(player.child.said(), /its publisher is gone; waiting for it to come back/);
   const refused = () => player.child.said().split("0 x 0 pixels").length - 1;
   const before = refused();

@@ -10,7 +10,7 @@ import { millimetres, png, quantised, readFrames, stampLines, writeRecording } f
 import { decode } from "./messages.js";
 import { Peer } from "./peer.js";
 import { Player, stampOf } from "./player.js";
-import { bin, domain, file, finished, run } from "./program.js";
+import { domain, file, finished, ownBin, run } from "./program.js";
 import { stampNs, trajectory } from "./trajectory.js";
 
 const kFrames = 30;
@@ -25,7 +25,7 @@ before(async () => {
   await finished("--sensor", source, "--frames", String(kFrames), "--headless", "--record", file("simulated"));
   camera = JSON.parse(readFileSync(join(file("simulated"), "cam_K.json")));
   frames = readFrames(file("simulated"), kFrames);
-  peer = await Peer.start(join(bin, "ros2_peer"), domain);
+  peer = await Peer.start(join(ownBin, "ros2_peer"), domain);
 });
 after(() => peer.stop());
 

@@ -6,7 +6,7 @@ import { join } from "node:path";
 import { test } from "node:test";
 import { decode, writerOf } from "./messages.js";
 import { Peer } from "./peer.js";
-import { bin, ddsType, domain, file, run, samplesOf, sleep } from "./program.js";
+import { ddsType, domain, file, ownBin, patience, run, samplesOf, sleep } from "./program.js";
 
 const now = () => {
   const ms = Date.now();
@@ -26,18 +26,19 @@ async function publish(peer, topic, type, qos, bytes) {
 }
 
 test("tf moves the camera, and a topic tells which pixels are the object's", async () => {
-  const peer = await Peer.start(join(bin, "ros2_peer"), domain);
+  const peer = await Peer.start(join(ownBin, "ros2_peer"), domain);
   const path = "rt/disflow/object/path";
   await peer.do("subscribe", path, ddsType("nav_msgs/Path"), "latched", file("path"));
   const child = run(
-    "--sensor", "sim:box?motion=static&width=160&height=120", "--rate", "realtime", "--frames", "900", "--headless",
+    // So slow that frames are there when their stamps say.
+    "--sensor", `sim:box?motion=static&width=160&height=120&fps=${30 / patience}`, "--rate", "realtime", "--frames", "900", "--headless",
     "--link", `dds:domain=${domain}&interface=lo&peer=127.0.0.1&world=map&camera=eye&mask=/segmenter/mask`,
   );
   const quarter = Math.SQRT1_2;
   const fixed = { transforms: [transform("gripper", "eye", [0, 0, 0.1], [0, 0, quarter, quarter])] };
   await publish(peer, "rt/tf_static", "tf2_msgs/TFMessage", "latched", tf.writeMessage(fixed));
   const mask = { height: 120, width: 160, encoding: "mono8", is_bigendian: 0, step: 160 };
-  for (let i = 0; i < 80; ++i) {
+  for (let i = 0; i < 80 * patience; ++i) {
     const moving = { transforms: [transform("map", "gripper", [1, 2, 3], [0, 0, 0, 1]), transform("x", "y", [0, 0, 0], [0, 0, 0, 0])] };
     await publish(peer, "rt/tf", "tf2_msgs/TFMessage", "reliable", tf.writeMessage(moving));
     const header = { stamp: now(), frame_id: "eye" };
@@ -47,7 +48,7 @@ test("tf moves the camera, and a topic tells which pixels are the object's", asy
   }
   const short = { header: { stamp: now(), frame_id: "eye" }, ...mask, height: 60000, data: new Uint8Array(10) };
   await publish(peer, "rt/segmenter/mask", "sensor_msgs/Image", "best_effort", image.writeMessage(short));
-  await sleep(100);
+  await sleep(100 * patience);
   child.kill("SIGTERM");
   const { status, said } = await child.ended;
   await samplesOf(peer, path, 1);

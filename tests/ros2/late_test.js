@@ -6,7 +6,7 @@ import { join } from "node:path";
 import { test } from "node:test";
 import { decode, graphEntry, writerOf } from "./messages.js";
 import { Peer } from "./peer.js";
-import { bin, ddsType, domain, file, run, samplesOf, sleep } from "./program.js";
+import { ddsType, domain, file, ownBin, patience, run, samplesOf, sleep } from "./program.js";
 import { trajectory } from "./trajectory.js";
 
 const requestHeader = "uint64 client\nint64 seq\n";
@@ -19,8 +19,8 @@ test("Who comes late sees the node, the path and the surface, and can reset the 
     "--sensor", "sim:box?motion=moderate", "--rate", "realtime", "--frames", "900", "--headless", "--csv", file("late.csv"),
     "--link", `dds:domain=${domain}&interface=lo&peer=127.0.0.1&name=robot&camera=d415_optical&reset=yes`,
   );
-  await sleep(1500);
-  const peer = await Peer.start(join(bin, "ros2_peer"), domain);
+  await sleep(1500 * patience);
+  const peer = await Peer.start(join(ownBin, "ros2_peer"), domain);
   const seen = async (topic, type, name) => {
     await peer.do("subscribe", topic, type, "latched", file(name));
     await samplesOf(peer, topic, 1);
@@ -34,7 +34,7 @@ test("Who comes late sees the node, the path and the surface, and can reset the 
     "call", "rq/robot/object/resetRequest", "std_srvs::srv::dds_::Trigger_Request_",
     "rr/robot/object/resetReply", "std_srvs::srv::dds_::Trigger_Response_", file("request"), file("reset"),
   );
-  await sleep(300);
+  await sleep(300 * patience);
   child.kill("SIGTERM");
   const { status, said } = await child.ended;
   await peer.stop();
@@ -62,7 +62,7 @@ test("Without reset=yes nobody on the network is offered to reset the object", a
     "--sensor", "sim:box?motion=moderate", "--rate", "realtime", "--frames", "900", "--headless",
     "--link", `dds:domain=${domain}&interface=lo&peer=127.0.0.1&name=deaf`,
   );
-  const peer = await Peer.start(join(bin, "ros2_peer"), domain);
+  const peer = await Peer.start(join(ownBin, "ros2_peer"), domain);
   await peer.do("subscribe", "ros_discovery_info", "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_", "latched", file("deaf"));
   await samplesOf(peer, "ros_discovery_info", 1);
   child.kill("SIGTERM");

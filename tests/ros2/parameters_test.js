@@ -7,7 +7,7 @@ import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { decode, serviceOf, writerOf } from "./messages.js";
 import { Peer } from "./peer.js";
-import { bin, ddsType, domain, file, run, samplesOf, sleep } from "./program.js";
+import { ddsType, domain, file, ownBin, patience, run, samplesOf, sleep, until } from "./program.js";
 
 const events = "rt/parameter_events";
 const status = "rt/disflow/box/status";
@@ -25,7 +25,7 @@ let peer;
 let child;
 
 before(async () => {
-  peer = await Peer.start(join(bin, "ros2_peer"), domain);
+  peer = await Peer.start(join(ownBin, "ros2_peer"), domain);
   await peer.do("subscribe", events, ddsType("rcl_interfaces/ParameterEvent"), "reliable", file("events"));
   await peer.do("subscribe", status, ddsType("diagnostic_msgs/DiagnosticArray"), "reliable", file("status"));
   child = run(
@@ -95,7 +95,7 @@ test("a parameter that is set holds from the next frame on, and the event tells 
   assert.deepEqual(await set({ name: "box.monitor.degraded_std_m", value: whole(0) }), [{ successful: true, reason: "" }]);
   assert.equal((await get("box.monitor.degraded_std_m"))[0].double_value, 0);
   const messageNow = () => decode(file("status"), "diagnostic_msgs/DiagnosticArray").at(-1).status[0].message;
-  for (let i = 0; i < 200 && !/degraded/.test(messageNow()); ++i) await sleep(50);
+  await until(() => /degraded/.test(messageNow()));
   assert.match(messageNow(), /degraded/);
   await samplesOf(peer, events, 1);
   const event = decode(file("events"), "rcl_interfaces/ParameterEvent").at(-1);
@@ -151,9 +151,9 @@ test("the life cycle pauses and resumes, and refuses what there is not", async (
   assert.deepEqual(available_transitions.map(({ transition, goal_state }) => [transition.label, goal_state.label]), [["activate", "active"]]);
   const { available_states } = await call("lifecycle_msgs/GetAvailableStates", "get_available_states", empty);
   assert.deepEqual(available_states.map(({ label }) => label), ["inactive", "active"]);
-  await sleep(300);
+  await sleep(300 * patience);
   const paused = Number(await peer.do("count", status));
-  await sleep(500);
+  await sleep(500 * patience);
   assert.equal(Number(await peer.do("count", status)), paused);
   assert.equal(await change({ id: 0, label: "activate" }), true);
   await samplesOf(peer, status, paused + 3);

@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { writeFileSync } from "node:fs";
 import { cameraInfo } from "./frames.js";
 import { writerOf } from "./messages.js";
-import { ddsType, file, run, samplesOf, sleep } from "./program.js";
+import { ddsType, file, patience, run, samplesOf, sleep } from "./program.js";
 
 export const stampOf = (ns) => ({ sec: Number(ns / 1000000000n), nanosec: Number(ns % 1000000000n) });
 /** The encoder's stamps have another name for it. */
@@ -17,7 +17,7 @@ const info = writerOf("sensor_msgs/CameraInfo");
 
 /** Again and again until it has worked: what a best-effort writer sends is lost until the other side knows it. */
 export async function repeat(send, worked) {
-  for (let i = 0; i < 100 && !(await worked()); ++i) {
+  for (let i = 0; i < 100 * patience && !(await worked()); ++i) {
     await send();
     await sleep(100);
   }

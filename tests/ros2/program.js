@@ -7,8 +7,15 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after } from "node:test";
 
-/** Folder of the programs, given on the command line. */
+/**
+ * Folder of the programs under test, and that of this machine's own, which they talk to; given on the command line.
+ * DISFLOW_EMULATOR, with its options, starts those of another processor.
+ */
 export const bin = process.argv[2];
+export const ownBin = process.argv[3] ?? bin;
+const emulator = process.env.DISFLOW_EMULATOR?.split(" ") ?? [];
+/** How many times as long things may take: under an emulator a frame takes about as much longer. */
+export const patience = emulator.length > 0 ? 10 : 1;
 /** A domain of this process alone, so that tests do not hear each other. */
 export const domain = 20 + (process.pid % 80);
 
@@ -26,7 +33,8 @@ after(() => {
 });
 
 export function run(...options) {
-  const child = owned(spawn(join(bin, "disflow_track"), options, { stdio: ["ignore", "ignore", "pipe"] }));
+  const [program, ...before] = [...emulator, join(bin, "disflow_track")];
+  const child = owned(spawn(program, [...before, ...options], { stdio: ["ignore", "ignore", "pipe"] }));
   let said = "";
   child.stderr.on("data", (data) => (said += data));
   child.said = () => said;
@@ -44,7 +52,9 @@ export async function finished(...options) {
 export const ddsType = (type) => type.replace("/", "::msg::dds_::") + "_";
 export const sleep = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
 
-/** Waits for so many samples, ten seconds at most. */
-export async function samplesOf(peer, topic, count) {
-  for (let i = 0; i < 200 && Number(await peer.do("count", topic)) < count; ++i) await sleep(50);
+/** Waits until it holds, ten seconds at most; the test says what it means that it does not. */
+export async function until(holds) {
+  for (let i = 0; i < 200 * patience && !(await holds()); ++i) await sleep(50);
 }
+/** Waits for so many samples. */
+export const samplesOf = (peer, topic, count) => until(async () => Number(await peer.do("count", topic)) >= count);

@@ -110,6 +110,21 @@ seen 'packages: 80 %' an_installation
 expect 0 tell_left build 0 0 0
 expect 1 run_tests --fresh-air
 
+# --- make_target_root: fetched once, and anew when other packages are wanted
+fetches() { # fetches PACKAGES: where these are there already
+  cd "$(mktemp -d)" || exit 1
+  trap 'rm -rf "$PWD"' EXIT
+  mkdir -p toolchains build/aarch64-root
+  printf '#!/bin/sh\nexit 45\n' >toolchains/debian_root.sh
+  chmod +x toolchains/debian_root.sh
+  echo "$1" >build/aarch64-root/packages
+  make_target_root aarch64
+}
+mmdebstrap() { :; }
+# shellcheck disable=SC2154  # of ./dev
+expect 0 fetches "${target_libraries[*]}"
+expect 1 fetches "${target_libraries[*]:1}"
+
 # --- need_later: in the background only where nobody has to be asked
 id() { echo 0; }
 need() { :; }
