@@ -20,7 +20,7 @@ FORBIDDEN = re.compile(
 # Double precision in software: arithmetic, comparisons and conversions.
 DOUBLE = re.compile(r'^__aeabi_(d\w+|cd\w+|f2d|i2d|ui2d|l2d|ul2d)$')
 # Checks the settings once, when the tracker is made.
-MAY_USE_DOUBLE = re.compile(r'^(void )?disflow::(Validate\(|.*VisitFields<.*Validate\()')
+MAY_USE_DOUBLE = re.compile(r'^((void|auto) )?disflow::(Validate\(|.*VisitFields<.*Validate\()')
 
 # What calls through pointers can reach, by caller; the first match counts. Vtables and the clock lent to the tracker.
 INDIRECT = [
