@@ -32,7 +32,7 @@ struct SegmenterConfig : ObjectStart {
   int mask_tolerance_px = 8;
   float mask_delay_s = 0.067F;
   float velocity_change_mps = 0.9F;
-  float lost_margin_m = 0.3F;
+  float lost_margin_m = 0.1F;
   int grow_region = 1;
 };
 

@@ -159,5 +159,32 @@ TEST(SeveralObjects, WithoutMasks_KeepToThemselves) {
   }
 }
 
+TEST(SeveralObjects, ThatHidesAnother_IsNotTakenForIt) {
+  constexpr int kFrames = 110;
+  host::SimulationOptions options = BoxBeforeBottle(kFrames);
+  options.seed = 3;
+  options.width_px = 320;
+  options.height_px = 180;
+  options.mask = host::MaskKind::kNone;
+  host::Simulation simulation = Make(options);
+  // The one behind is chosen; the box passes in front of it soon.
+  Config config;
+  const Vec3 place_m = simulation.TruthAt(0, 1).object.pose.translation().cast<float>();
+  const Vec2 px = SimulatedCamera(options).Project(place_m);
+  config.segmenter.seed_u_px = static_cast<int>(px.x());
+  config.segmenter.seed_v_px = static_cast<int>(px.y());
+  const auto tracker = std::make_unique<Tracker<profiles::Edge>>(config);
+  bool was_lost = false;
+  Estimate estimate;
+  for (int i = 0; i < kFrames; ++i) {
+    DepthFrame frame;
+    simulation.Render(i, frame);
+    (void)tracker->Process(frame, estimate);
+    was_lost = was_lost || estimate.state == TrackingState::kLost;
+  }
+  EXPECT_TRUE(was_lost);
+  EXPECT_EQ(estimate.reset_counter, 0);
+}
+
 }  // namespace
 }  // namespace disflow
