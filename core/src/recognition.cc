@@ -18,9 +18,9 @@ void Recognition::Forget() noexcept {
   suspected_ = false;
 }
 
-void Recognition::Suspect(const PoseObjectFromCamera& T_oc) noexcept {
-  suspected_ = true;
-  T_oc_ = T_oc;
+void Recognition::Consider(bool nearly, const PoseObjectFromCamera& T_oc) noexcept {
+  suspected_ = nearly && !suspected_ && !pending();
+  if (suspected_) T_oc_ = T_oc;
 }
 
 bool Recognition::Confirm(bool recognised, const PoseObjectFromCamera& T_oc, const Vec3& center_c,

@@ -92,7 +92,6 @@ class Tracker {
   /// Frames in which a lost object is looked for near where it should be, before it is looked for
   /// turned anyhow.
   static constexpr int kLocalSearches = 2;
-  /// Many things look alike when they are turned about: more than a quarter turn is not believed.
   static constexpr int kInitialBudgetFactor = 12;
   static constexpr int kFramesUntilObserved = 3;
   static constexpr int kMostForgotten = 64;  ///< Clusters per frame; the rest goes in the next.

@@ -61,9 +61,8 @@ PoseSearchPrior Tracker<Limits>::SearchPrior(StampNs stamp_ns) const noexcept {
   PoseSearchPrior prior{T_oc_, T_oc_previous_, frame_index_ >= kFramesUntilVelocity,
                         monitor_.Doubts(stamp_ns) ? monitor_.missed() + 1 : 0};
   if (recognition_.pending() || recognition_.suspected()) {
-    prior.T_predicted = prior.T_previous = recognition_.T_oc();
+    prior.T_predicted = recognition_.T_oc();
     prior.turned_over = true;
-    prior.R_oc_known = T_oc_previous_.rotation();
   } else if (monitor_.searched() >= kLocalSearches) {
     prior.global = global_part_;
   }
@@ -103,12 +102,7 @@ Status Tracker<Limits>::Conclude(const DepthFrame& frame, Status observed, const
   const bool recognised = evidence.in_view && !near && monitor_.Recognises(evidence);
   const bool found_again =
       recognition_.Confirm(recognised, aligned.T_oc, aligned.center_c, frame.stamp_ns);
-  const bool looked_twice = recognition_.suspected();
-  recognition_.DropSuspicion();
-  if (!near && evidence.in_view && !looked_twice && !recognition_.pending() &&
-      monitor_.Suspects(evidence)) {
-    recognition_.Suspect(aligned.T_oc);
-  }
+  recognition_.Consider(evidence.in_view && !near && monitor_.Suspects(evidence), aligned.T_oc);
   evidence.registered = followed || found_again;
   monitor_.Update(evidence, frame.stamp_ns);
   if (evidence.registered) {

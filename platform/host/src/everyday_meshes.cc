@@ -118,10 +118,7 @@ TriangleMesh MakeTube() {
   const double middle_m = kRadius_m - kRim_m;
   AppendArc(profile, {middle_m, kHalfLength_m - kRim_m}, kRim_m, 0.0, pi, kArcSteps);
   AppendArc(profile, {middle_m, kRim_m - kHalfLength_m}, kRim_m, pi, 2.0 * pi, kArcSteps);
-  return MeshTube(120, static_cast<int>(profile.size()), true, [&profile](double angle, int row) {
-    const ProfilePoint& point = profile[static_cast<std::size_t>(row)];
-    return Vec3d(point.radius_m * std::cos(angle), point.radius_m * std::sin(angle), point.z_m);
-  });
+  return MeshProfile(profile, 120, true);
 }
 
 TriangleMesh MakeSuperellipsoid() {

@@ -55,9 +55,11 @@ inline void AppendArc(std::vector<ProfilePoint>& profile, ProfilePoint centre, d
 }
 
 /// The solid of revolution of a profile about z that goes from the bottom along the outside.
-inline TriangleMesh MeshProfile(const std::vector<ProfilePoint>& profile, int columns) {
+/// @param closed Whether it comes back to where it begins, as of a ring.
+inline TriangleMesh MeshProfile(const std::vector<ProfilePoint>& profile, int columns,
+                                bool closed = false) {
   return MeshTube(
-      columns, static_cast<int>(profile.size()), false, [&profile](double angle, int row) {
+      columns, static_cast<int>(profile.size()), closed, [&profile](double angle, int row) {
         const ProfilePoint& point = profile[static_cast<std::size_t>(row)];
         return Vec3d(point.radius_m * std::cos(angle), point.radius_m * std::sin(angle), point.z_m);
       });

@@ -60,17 +60,22 @@ TEST(Recognition, RareImages_LetTheObjectMoveFartherBetween) {
   EXPECT_TRUE(rarely.Confirm(true, At(1.5F, 0.08F), kCenter_c, 3 * kPeriod_ns));
 }
 
-TEST(Recognition, Suspicion_LastsUntilItIsDroppedAndConfirmsNothing) {
+TEST(Recognition, Suspicion_LastsForOneFrameAndConfirmsNothing) {
   Recognition recognition;
   EXPECT_FALSE(recognition.suspected());
-  recognition.Suspect(At(1.0F, 0.0F));
+  recognition.Consider(true, At(1.0F, 0.0F));
   EXPECT_TRUE(recognition.suspected());
   EXPECT_FALSE(recognition.pending());
   EXPECT_EQ(recognition.T_oc().translation(), At(1.0F, 0.0F).translation());
-  recognition.DropSuspicion();
+  // It was looked at twice by now.
+  recognition.Consider(true, At(1.0F, 0.0F));
   EXPECT_FALSE(recognition.suspected());
   // It is no frame that recognised the object.
   EXPECT_FALSE(recognition.Confirm(true, At(1.0F, 0.0F), kCenter_c, kPeriod_ns));
+  // What is recognised is kept.
+  recognition.Consider(true, At(2.0F, 0.1F));
+  EXPECT_FALSE(recognition.suspected());
+  EXPECT_EQ(recognition.T_oc().translation(), At(1.0F, 0.0F).translation());
 }
 
 }  // namespace

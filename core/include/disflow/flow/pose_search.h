@@ -165,10 +165,11 @@ class PoseSearch {
   [[nodiscard]] float Plausibility(const PoseObjectFromCamera& T_oc,
                                    const Conflict& conflict) const noexcept {
     const float deviation = Deviation(T_oc);
-    // Of what is searched for in all directions next to nothing is known of the motion.
+    // Of what is searched for in all directions next to nothing is known of the motion: of what
+    // looks alike that is taken which is turned least.
     const float unlikely =
         prior_.turned_over
-            ? kTurnShare_per_rad * TurnBetween(prior_.R_oc_known, T_oc.rotation()).norm()
+            ? kTurnShare_per_rad * TurnBetween(prior_.T_previous.rotation(), T_oc.rotation()).norm()
             : kDeviationShare * deviation / (1.0F + deviation);
     return registration_.Score(field_, config_, T_oc) * (1.0F - conflict(T_oc)) +
            kEdgeShare * registration_.EdgeScore(edges_, config_, T_oc) - unlikely;

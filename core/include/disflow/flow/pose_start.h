@@ -32,8 +32,6 @@ struct PoseSearchPrior {
   /// What was searched for may be where it is predicted, or turned over: many things look nearly
   /// alike then, and boxes do.
   bool turned_over = false;
-  /// Where it was registered last: of what looks alike that is taken which is turned least.
-  Mat3 R_oc_known = Mat3::Identity();
 };
 
 /// The axes and the diagonals of a cube, both ways.

@@ -17,9 +17,9 @@ class Recognition {
 
   /// T_oc() is what a frame shows nearly: the object may be turned over.
   [[nodiscard]] bool suspected() const noexcept { return suspected_; }
-  /// Looks there once more in the next frame.
-  void Suspect(const PoseObjectFromCamera& T_oc) noexcept;
-  void DropSuspicion() noexcept { suspected_ = false; }
+  /// A frame's pose that is nearly recognised is looked at once more in the next frame, and not
+  /// again in the one after it.
+  void Consider(bool nearly, const PoseObjectFromCamera& T_oc) noexcept;
 
   /// @param recognised Whether a frame's pose is beyond doubt.
   /// @param T_oc That pose.
