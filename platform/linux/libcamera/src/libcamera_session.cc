@@ -264,7 +264,7 @@ bool LibcameraSession::Return(libcamera::Request* request) {
 }
 
 const std::byte* LibcameraSession::Image(const libcamera::Request& request) const {
-  const Mapping& mapping = mappings_[request.cookie()];
+  const Mapping& mapping = mappings_[static_cast<std::size_t>(request.cookie())];
   return static_cast<const std::byte*>(mapping.memory) + mapping.offset;
 }
 
