@@ -49,10 +49,11 @@ void TrackingMonitor::Start(const MonitorConfig& config, StampNs stamp_ns) noexc
 
 bool TrackingMonitor::Accepts(const Evidence& evidence, StampNs stamp_ns) const noexcept {
   if (!evidence.registered) return false;
-  const bool usual_conflict = evidence.conflict <= config_.degraded_conflict + usual_.conflict;
+  const bool usual_conflict =
+      evidence.resolved_conflict <= config_.degraded_conflict + usual_.conflict;
   if (Doubts(stamp_ns)) return Explains(evidence) && usual_conflict;
   const bool sound = evidence.score >= config_.lost_score &&
-                     evidence.conflict <= config_.lost_conflict &&
+                     evidence.resolved_conflict <= config_.lost_conflict &&
                      InlierShare(evidence) >= kMinInlierShare;
   return sound || (ExplainsUsually(evidence, kMinFollowedShare) && usual_conflict);
 }

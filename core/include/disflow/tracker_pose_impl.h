@@ -8,6 +8,7 @@
 #include "disflow/field/fast_math.h"
 #include "disflow/flow/model_agreement.h"
 #include "disflow/flow/model_drift.h"
+#include "disflow/flow/model_silhouette.h"
 #include "disflow/flow/pose_search.h"
 #include "disflow/flow/pose_uncertainty.h"
 #include "disflow/flow/weak_direction.h"
@@ -83,6 +84,7 @@ Status Tracker<Limits>::Conclude(const DepthFrame& frame, Status observed, const
     evidence = {.registered = covariance.solved,
                 .score = estimate.score,
                 .conflict = agreement.conflict(),
+                .resolved_conflict = ResolvedConflict(frame, aligned.T_oc, agreement),
                 .visible = agreement.visible(),
                 .inliers = aligned.inliers,
                 .points = aligned.points,

@@ -24,6 +24,12 @@ Evidence Good() {
           .position_to_model_std_m = 0.0003F,
           .rotation_to_model_std_rad = 0.003F};
 }
+/// The model contradicts the image where any camera would tell.
+Evidence Contradicted(Evidence evidence, float share) {
+  evidence.conflict = share;
+  evidence.resolved_conflict = share;
+  return evidence;
+}
 /// Something is there, and the model does not fit it.
 Evidence InVain() {
   Evidence evidence;
@@ -73,17 +79,26 @@ TEST_F(TrackingMonitorTest, FirstFrames_AreInitialising) {
 TEST_F(TrackingMonitorTest, FollowedPose_IsAcceptedOnLittle) {
   Track();
   EXPECT_TRUE(Accepts(With([](Evidence& e) { e.score = 0.31F; })));
-  EXPECT_TRUE(Accepts(With([](Evidence& e) { e.conflict = 0.39F; })));
+  EXPECT_TRUE(Accepts(Contradicted(Good(), 0.39F)));
   EXPECT_TRUE(Accepts(With([](Evidence& e) { e.inliers = 80; })));
 }
 
 TEST_F(TrackingMonitorTest, FollowedPose_IsRefusedOnLess) {
   Track();
   EXPECT_FALSE(Accepts(With([](Evidence& e) { e.score = 0.29F; })));
-  EXPECT_FALSE(Accepts(With([](Evidence& e) { e.conflict = 0.41F; })));
+  EXPECT_FALSE(Accepts(Contradicted(Good(), 0.41F)));
   EXPECT_FALSE(Accepts(With([](Evidence& e) { e.inliers = 70; })));
   EXPECT_FALSE(Accepts(With([](Evidence& e) { e.registered = false; })));
   EXPECT_FALSE(Accepts(With([](Evidence& e) { e.inliers = e.points = 0; })));
+}
+
+TEST_F(TrackingMonitorTest, WhatIsTooNarrowForTheCamera_RefusesNoPose_ButIsNoReasonForTrust) {
+  Track();
+  const Evidence edge_on = With([](Evidence& e) { e.conflict = 0.6F; });
+  EXPECT_TRUE(Accepts(edge_on));
+  Offer(edge_on);
+  EXPECT_EQ(monitor_.state(), TrackingState::kDegraded);
+  EXPECT_FALSE(monitor_.Recognises(edge_on));
 }
 
 TEST_F(TrackingMonitorTest, FollowedPoseOfANoisySensor_MayHaveFewerInliers_IfAllElseIsAsUsual) {
@@ -101,9 +116,7 @@ TEST_F(TrackingMonitorTest, FollowedPoseOfANoisySensor_MayHaveFewerInliers_IfAll
   Evidence spoilt = few;
   spoilt.score = 0.5F;
   EXPECT_FALSE(Accepts(spoilt));
-  spoilt = few;
-  spoilt.conflict = 0.2F;
-  EXPECT_FALSE(Accepts(spoilt));
+  EXPECT_FALSE(Accepts(Contradicted(few, 0.2F)));
   spoilt = few;
   spoilt.inliers = 35;
   EXPECT_FALSE(Accepts(spoilt));
@@ -112,7 +125,7 @@ TEST_F(TrackingMonitorTest, FollowedPoseOfANoisySensor_MayHaveFewerInliers_IfAll
 TEST_F(TrackingMonitorTest, SearchedPose_NeedsMore) {
   Track();
   const Evidence weak_score = With([](Evidence& e) { e.score = 0.70F; });
-  const Evidence some_conflict = With([](Evidence& e) { e.conflict = 0.16F; });
+  const Evidence some_conflict = Contradicted(Good(), 0.16F);
   const Evidence few_inliers = With([](Evidence& e) { e.inliers = 240; });
   for (const Evidence& evidence : {weak_score, some_conflict, few_inliers})
     EXPECT_TRUE(Accepts(evidence));

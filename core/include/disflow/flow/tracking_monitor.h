@@ -13,10 +13,11 @@ class TrackingMonitor {
   /// What one frame offered as evidence.
   struct Evidence {
     bool registered = false;
-    bool in_view = false;   ///< Surface was observed that may be the object's.
-    float score = 0.0F;     ///< Share of observed samples that the model explains.
-    float conflict = 0.0F;  ///< Share of the model's visible points that are not there.
-    float visible = 0.0F;   ///< Share of the model's front that is in view and not hidden.
+    bool in_view = false;            ///< Surface was observed that may be the object's.
+    float score = 0.0F;              ///< Share of observed samples that the model explains.
+    float conflict = 0.0F;           ///< Share of the model's visible points that are not there.
+    float resolved_conflict = 0.0F;  ///< The same without what is narrower than cameras resolve.
+    float visible = 0.0F;            ///< Share of the model's front that is in view and not hidden.
     int inliers = 0;
     int points = 0;               ///< Samples that were registered.
     float position_std_m = 0.0F;  ///< In the worst direction, as reported.

@@ -86,7 +86,8 @@ Fault McapReader::ReadContent(const Record& record, std::uint64_t most) {
 Fault McapReader::AddToChecksum(std::uint64_t end) {
   std::array<std::uint8_t, 65536> block;
   while (has_checksum_ && checked_ < end) {
-    const auto part = std::span(block).first(std::min<std::uint64_t>(block.size(), end - checked_));
+    const auto part = std::span(block).first(
+        static_cast<std::size_t>(std::min<std::uint64_t>(block.size(), end - checked_)));
     const Fault fault = file_.Read(checked_, part);
     if (!fault.ok()) return fault;
     checksum_ = Crc32(checksum_, part);
