@@ -25,6 +25,8 @@ constexpr float kRecognisedInlierShare = 0.6F;
 constexpr float kRecognisedConflict = 0.03F;  // of some forty points in view one is off by chance
 constexpr float kRecognisedVisible =
     0.4F;  ///< Of the model's front: less may be a part of anything.
+// More than usual, of a pose that has slid along the object: four of some forty points in view.
+constexpr float kSlidConflict = 0.1F;
 // What is usual follows the frames with a time constant of 20: two thirds of a second at 30 Hz.
 constexpr float kUsualGain = 0.05F;
 
@@ -45,6 +47,7 @@ void TrackingMonitor::Start(const MonitorConfig& config, StampNs stamp_ns) noexc
   updated_ns_ = stamp_ns;
   last_registered_ns_ = stamp_ns;
   usual_ = {};
+  contradicted_ = false;
 }
 
 bool TrackingMonitor::Accepts(const Evidence& evidence, StampNs stamp_ns) const noexcept {
@@ -95,6 +98,8 @@ void TrackingMonitor::Update(const Evidence& evidence, StampNs stamp_ns) noexcep
   const TrackingState before = state_;
   const StampNs passed_ns = SpanNs(updated_ns_, stamp_ns);
   updated_ns_ = stamp_ns;
+  contradicted_ =
+      evidence.registered && evidence.resolved_conflict > usual_.conflict + kSlidConflict;
   if (!evidence.registered) {
     ++missed_;
     if (evidence.in_view) {

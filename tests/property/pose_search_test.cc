@@ -106,5 +106,53 @@ TEST_F(LostBox, FollowingAlone_WouldNotReachAsFar) {
   EXPECT_LT(found, kTries * 9 / 10);
 }
 
+/// A board of which one face is seen: it slides without a sample that minds.
+class SlidBoard : public LostBox {
+ protected:
+  SlidBoard() {
+    model_ = MakeModel(board_);
+    samples_.clear();
+    const Observing observing;
+    std::mt19937 random(7);
+    while (samples_.size() < Search::kPoints) {
+      const SurfacePoint point = board_.random_point(random);
+      if (point.normal.z() > -0.5F) continue;
+      SurfaceSample sample = Observe(point, observing, random);
+      sample.position_m += kCenter_c;
+      (void)samples_.push_back(sample);
+    }
+    registration_->SetObservations(samples_, no_edges_);
+  }
+  /// How far from its place a board that was followed 4 cm beside it is looked for.
+  [[nodiscard]] float FoundBeside_m(bool contradicted) const {
+    const PoseObjectFromCamera T_slid =
+        PoseCameraFromObject(Mat3::Identity(), kCenter_c + Vec3(0.04F, 0.0F, 0.0F)).Inverse();
+    const auto conflict = [&](const PoseObjectFromCamera& T_oc) {
+      int there = 0;
+      int contradicting = 0;
+      model_->store().ForEach([&](Handle, const auto& cluster) {
+        const Vec3 x_o = T_oc.Inverse() * cluster.centroid_m - kCenter_c;
+        ++(board_.distance_m(x_o) < 0.01F ? there : contradicting);
+      });
+      return static_cast<float>(contradicting) / static_cast<float>(there + contradicting);
+    };
+    const PoseSearchPrior prior{.T_predicted = T_slid,
+                                .T_previous = T_slid,
+                                .velocity_known = true,
+                                .contradicted = contradicted};
+    const Search search(*registration_, *model_, edges_, config_, prior);
+    return (search.Find(conflict).T_oc.Inverse().translation() - kCenter_c).norm();
+  }
+
+ private:
+  static inline const Vec3 kCenter_c{0.0F, 0.0F, 0.5F};
+  Shape board_ = Box(Vec3(0.08F, 0.05F, 0.004F), 0.0F);
+};
+
+TEST_F(SlidBoard, IsLookedFor_WhenItsModelClaimsWhatIsNotThere) {
+  EXPECT_GT(FoundBeside_m(false), 0.035F);
+  EXPECT_LT(FoundBeside_m(true), 0.005F);
+}
+
 }  // namespace
 }  // namespace disflow::testing

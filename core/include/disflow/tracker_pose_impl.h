@@ -61,6 +61,7 @@ template <CapacityProfile Limits>
 PoseSearchPrior Tracker<Limits>::SearchPrior(StampNs stamp_ns) const noexcept {
   PoseSearchPrior prior{T_oc_, T_oc_previous_, frame_index_ >= kFramesUntilVelocity,
                         monitor_.Doubts(stamp_ns) ? monitor_.missed() + 1 : 0};
+  prior.contradicted = monitor_.contradicted();
   if (recognition_.pending() || recognition_.suspected()) {
     prior.T_predicted = recognition_.T_oc();
     prior.turned_over = true;

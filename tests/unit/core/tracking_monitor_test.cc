@@ -101,6 +101,23 @@ TEST_F(TrackingMonitorTest, WhatIsTooNarrowForTheCamera_RefusesNoPose_ButIsNoRea
   EXPECT_FALSE(monitor_.Recognises(edge_on));
 }
 
+TEST_F(TrackingMonitorTest, PoseThatClaimsMoreThanUsual_MayHaveSlid) {
+  Track();
+  EXPECT_FALSE(monitor_.contradicted());
+  Offer(Contradicted(Good(), 0.12F));
+  EXPECT_TRUE(monitor_.contradicted());
+  Offer(Good());
+  EXPECT_FALSE(monitor_.contradicted());
+  // What a sensor always shows is no news.
+  Offer(Contradicted(Good(), 0.09F), 100);
+  Offer(Contradicted(Good(), 0.17F));
+  EXPECT_FALSE(monitor_.contradicted());
+  Offer(Contradicted(Good(), 0.21F));
+  EXPECT_TRUE(monitor_.contradicted());
+  monitor_.Start(config_, stamp_ns_);
+  EXPECT_FALSE(monitor_.contradicted());
+}
+
 TEST_F(TrackingMonitorTest, FollowedPoseOfANoisySensor_MayHaveFewerInliers_IfAllElseIsAsUsual) {
   // Its noise is worse than it is taken for: a quarter of the points are inliers at best.
   const Evidence usual = With([](Evidence& e) {

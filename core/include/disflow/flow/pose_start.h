@@ -32,6 +32,8 @@ struct PoseSearchPrior {
   /// What was searched for may be where it is predicted, or turned over: many things look nearly
   /// alike then, and boxes do.
   bool turned_over = false;
+  /// The last pose was followed, but may have slid.
+  bool contradicted = false;
 };
 
 /// The axes and the diagonals of a cube, both ways.

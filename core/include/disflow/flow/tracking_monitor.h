@@ -45,6 +45,9 @@ class TrackingMonitor {
   [[nodiscard]] bool Doubts(StampNs stamp_ns) const noexcept {
     return missed_ > 0 || SpanNs(last_registered_ns_, stamp_ns) > kLongGap_ns;
   }
+  /// Whether the last pose, though followed, may have slid: the model claims more surface that is
+  /// not there than usual.
+  [[nodiscard]] bool contradicted() const noexcept { return contradicted_; }
   /// Frames in a row, up to now, that could not be registered.
   [[nodiscard]] int missed() const noexcept { return missed_; }
   /// Frames that showed something in which the object was looked for in vain, since it was lost.
@@ -81,6 +84,7 @@ class TrackingMonitor {
   Usual usual_;
   TrackingState state_ = TrackingState::kInitialising;
   std::uint8_t quality_ = 0;
+  bool contradicted_ = false;
   int frames_in_state_ = 0;
   int missed_ = 0;
   int searched_ = 0;
