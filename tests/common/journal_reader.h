@@ -36,9 +36,11 @@ namespace disflow::test {
     for (std::size_t i = 0; i < sizeof(length); ++i)
       length |= std::uint64_t{static_cast<unsigned char>(datagram[i])} << (8 * i);
     datagram.remove_prefix(sizeof(length));
-    if (datagram.size() <= length || datagram[length] != '\n') return std::nullopt;
-    fields[name] = datagram.substr(0, length);
-    datagram.remove_prefix(length + 1);
+    if (datagram.size() <= length) return std::nullopt;
+    const auto end = static_cast<std::size_t>(length);
+    if (datagram[end] != '\n') return std::nullopt;
+    fields[name] = datagram.substr(0, end);
+    datagram.remove_prefix(end + 1);
   }
   return fields;
 }

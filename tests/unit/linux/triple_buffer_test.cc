@@ -137,15 +137,15 @@ TEST(TripleBufferStress, WriterThatWaitsForTheReader_LosesNothing) {
 }
 
 TEST(TripleBufferStress, ManyPairsAtOnce_DoNotDisturbEachOther) {
-  constexpr std::uint64_t kPairs = 4;
+  constexpr std::size_t kPairs = 4;
   constexpr std::uint64_t kValues = kHandovers / kPairs;
   std::array<TripleBuffer<Wide>, kPairs> buffers;
   std::array<std::uint64_t, kPairs> wrong{};
   std::vector<std::thread> threads;
-  for (std::uint64_t pair = 0; pair < kPairs; ++pair) {
+  for (std::size_t pair = 0; pair < kPairs; ++pair) {
     threads.emplace_back([&buffer = buffers[pair], pair] {
       for (std::uint64_t i = 1; i <= kValues; ++i) {
-        buffer.back().Set(i * kPairs + pair);
+        buffer.back().Set(i * std::uint64_t{kPairs} + pair);
         (void)buffer.Publish();
       }
     });

@@ -26,7 +26,7 @@ TEST(UnpackedTotal, WhatIsAllowed_GrowsWithTheFileAndWhatIsRefusedIsNotCounted) 
 class BagBombTest : public BagSensorTest {
  protected:
   /// An image, zeros on a topic that nobody asks for, and intrinsics.
-  [[nodiscard]] std::vector<RecordedMessage> Start(std::uint64_t zeros) const {
+  [[nodiscard]] std::vector<RecordedMessage> Start(std::size_t zeros) const {
     return {{kDepth, messages_[1].type, messages_[1].data},
             {"/zeros", "std_msgs/msg/String", Bytes(zeros, '\0')},
             messages_[2]};

@@ -73,8 +73,8 @@ TEST(StampPacer, AnyStamps_WaitIsBoundedAndNothingOverflows) {
   std::int64_t now_ns = kStart_ns;
   for (int i = 0; i < 10'000; ++i) {
     const bool hostile = random() % 2 == 0;
-    const auto stamp_ns =
-        hostile ? kHostile[random() % kHostile.size()] : static_cast<std::int64_t>(random());
+    const auto stamp_ns = hostile ? kHostile[static_cast<std::size_t>(random() % kHostile.size())]
+                                  : static_cast<std::int64_t>(random());
     const std::int64_t due_ns = pacer.DueNs(stamp_ns, now_ns);
     ASSERT_LE(due_ns, now_ns + StampPacer::kLongestGap_ns) << stamp_ns;
     now_ns = std::max(now_ns, due_ns);
