@@ -122,8 +122,6 @@ class Tracker {
   [[nodiscard]] DepthReader UsableDepth(const DepthFrame& frame) const noexcept;
   [[nodiscard]] ModelAgreement AgreementWith(const DepthFrame& frame,
                                              const PoseObjectFromCamera& T_oc) const noexcept;
-  [[nodiscard]] float ResolvedConflict(const DepthFrame& frame, const PoseObjectFromCamera& T_oc,
-                                       const ModelAgreement& agreement) const noexcept;
   [[nodiscard]] Status Observe(const DepthFrame& frame, Estimate& estimate,
                                StageStopwatch& stopwatch, bool doubtful) noexcept;
   void StartAt(StampNs stamp_ns, const PoseObjectFromCamera& T_oc, float variance) noexcept;

@@ -227,15 +227,6 @@ ModelAgreement Tracker<Limits>::AgreementWith(const DepthFrame& frame,
   return CompareWithImage(field_, T_oc, frame.camera, UsableDepth(frame));
 }
 
-/// What of it the camera can tell. Next to nothing contradicts a pose in most frames.
-template <CapacityProfile Limits>
-float Tracker<Limits>::ResolvedConflict(const DepthFrame& frame, const PoseObjectFromCamera& T_oc,
-                                        const ModelAgreement& agreement) const noexcept {
-  const float harmless = std::min(config_.monitor.degraded_conflict, config_.monitor.lost_conflict);
-  if (agreement.conflict() <= harmless) return agreement.conflict();
-  return disflow::ResolvedConflict(field_, T_oc, frame.camera, UsableDepth(frame), agreement);
-}
-
 /// The object frame: axes parallel to the camera's, origin at the first cloud's centroid.
 template <CapacityProfile Limits>
 void Tracker<Limits>::StartObject(const DepthFrame& frame) noexcept {

@@ -80,12 +80,15 @@ Status Tracker<Limits>::Conclude(const DepthFrame& frame, Status observed, const
   if (aligned.solved) {
     covariance = CovarianceOf(aligned, frame);
     const ModelAgreement agreement = AgreementWith(frame, aligned.T_oc);
+    const float harmless =
+        std::min(config_.monitor.degraded_conflict, config_.monitor.lost_conflict);
     estimate.conflict = agreement.conflict();
     estimate.visible = agreement.visible();
     evidence = {.registered = covariance.solved,
                 .score = estimate.score,
                 .conflict = agreement.conflict(),
-                .resolved_conflict = ResolvedConflict(frame, aligned.T_oc, agreement),
+                .resolved_conflict = ResolvedConflict(field_, aligned.T_oc, frame.camera,
+                                                      UsableDepth(frame), agreement, harmless),
                 .visible = agreement.visible(),
                 .inliers = aligned.inliers,
                 .points = aligned.points,

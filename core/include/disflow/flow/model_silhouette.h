@@ -67,10 +67,13 @@ class ModelSilhouette {
 /// Share of the decided points that contradict a pose without those where the model is too narrow
 /// for the camera: a sheet seen from its edge is not there for a camera that matches windows.
 /// @param agreement CompareWithImage() for the same arguments.
+/// @param harmless A conflict up to there is given back as it is: most frames have none.
 template <class Field>
 [[nodiscard]] float ResolvedConflict(const Field& field, const PoseObjectFromCamera& T_oc,
                                      const PinholeCamera& camera, const DepthReader& depth,
-                                     const ModelAgreement& agreement) noexcept {
+                                     const ModelAgreement& agreement,
+                                     float harmless = 0.0F) noexcept {
+  if (agreement.conflict() <= harmless) return agreement.conflict();
   // Samples are merged up to there.
   const float points_apart_m = field.config().merge_radius_m;
   const PoseCameraFromObject T_co = T_oc.Inverse();

@@ -45,8 +45,7 @@ class TrackingMonitor {
   [[nodiscard]] bool Doubts(StampNs stamp_ns) const noexcept {
     return missed_ > 0 || SpanNs(last_registered_ns_, stamp_ns) > kLongGap_ns;
   }
-  /// Whether the last pose, though followed, may have slid: the model claims more surface that is
-  /// not there than usual.
+  /// Whether the last pose, though followed, may have slid: the image contradicts it.
   [[nodiscard]] bool contradicted() const noexcept { return contradicted_; }
   /// Frames in a row, up to now, that could not be registered.
   [[nodiscard]] int missed() const noexcept { return missed_; }
