@@ -142,12 +142,14 @@ struct LookedThrough {
   float conflict = 0.0F;
   float resolved_conflict = 0.0F;
 };
-LookedThrough LookThrough(const Shape& shape, const PoseCameraFromObject& T_co) {
+/// @param turn_rad Of the shape in the image.
+LookedThrough LookThrough(const Shape& shape, float distance_m, float turn_rad = 0.0F) {
   const auto model = MakeModel(shape);
   const std::vector<float> depth_m(static_cast<std::size_t>(kWidth_px * kHeight_px), 1.5F);
   const DepthReader depth(
       {depth_m.data(), kWidth_px, kHeight_px, 4 * kWidth_px, DepthFormat::kFloat32, 0.001F}, 0.1F,
       10.0F);
+  const PoseCameraFromObject T_co(ExpSo3(Vec3(0.0F, 0.0F, turn_rad)), Vec3(0.0F, 0.0F, distance_m));
   const PoseObjectFromCamera T_oc = T_co.Inverse();
   const ModelAgreement agreement = CompareWithImage(*model, T_oc, kCamera, depth);
   EXPECT_GT(agreement.contradicted, 3);
@@ -158,8 +160,7 @@ TEST(ResolvedConflict, SheetSeenFromItsEdge_IsNotResolved) {
   // 5 mm are 1.5 pixels; in any direction of the image.
   const Shape sheet = Box(Vec3(0.04F, 0.0025F, 0.03F), 0.0F);
   for (const float turn_rad : {0.0F, 0.4F, 0.8F, 1.57F}) {
-    const Mat3 R_co = ExpSo3(Vec3(0.0F, 0.0F, turn_rad));
-    const LookedThrough image = LookThrough(sheet, {R_co, Vec3(0.0F, 0.0F, kDistance_m)});
+    const LookedThrough image = LookThrough(sheet, kDistance_m, turn_rad);
     EXPECT_EQ(image.conflict, 1.0F) << turn_rad;
     EXPECT_EQ(image.resolved_conflict, 0.0F) << turn_rad;
   }
@@ -168,8 +169,7 @@ TEST(ResolvedConflict, SheetSeenFromItsEdge_IsNotResolved) {
 TEST(ResolvedConflict, WideSurfaceThatIsNotThere_Contradicts) {
   const Shape sheet = Box(Vec3(0.04F, 0.03F, 0.0025F), 0.0F);
   for (const float turn_rad : {0.0F, 0.8F}) {
-    const Mat3 R_co = ExpSo3(Vec3(0.0F, 0.0F, turn_rad));
-    const LookedThrough image = LookThrough(sheet, {R_co, Vec3(0.0F, 0.0F, kDistance_m)});
+    const LookedThrough image = LookThrough(sheet, kDistance_m, turn_rad);
     EXPECT_EQ(image.conflict, 1.0F) << turn_rad;
     EXPECT_GT(image.resolved_conflict, 0.9F) << turn_rad;
   }
@@ -178,17 +178,14 @@ TEST(ResolvedConflict, WideSurfaceThatIsNotThere_Contradicts) {
 TEST(ResolvedConflict, NearTheCamera_ItsPointsFarApart_SurfaceHasNoHoles) {
   const Shape sheet = Box(Vec3(0.04F, 0.03F, 0.0025F), 0.0F);
   for (const float distance_m : {0.12F, 0.16F, 0.25F}) {
-    const LookedThrough image =
-        LookThrough(sheet, {Mat3::Identity(), Vec3(0.0F, 0.0F, distance_m)});
-    EXPECT_GT(image.resolved_conflict, 0.9F) << distance_m;
+    EXPECT_GT(LookThrough(sheet, distance_m).resolved_conflict, 0.9F) << distance_m;
   }
 }
 
 TEST(ResolvedConflict, SheetNearTheCamera_IsResolved) {
   // 10 mm are 19 pixels.
   const Shape sheet = Box(Vec3(0.02F, 0.005F, 0.01F), 0.0F);
-  EXPECT_EQ(LookThrough(sheet, {Mat3::Identity(), Vec3(0.0F, 0.0F, 0.08F)}).resolved_conflict,
-            1.0F);
+  EXPECT_EQ(LookThrough(sheet, 0.08F).resolved_conflict, 1.0F);
 }
 
 TEST_F(BallInView, KnownSurface_IsNearItsPointsOnly) {

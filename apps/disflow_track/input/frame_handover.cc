@@ -12,6 +12,7 @@
 #include <system_error>
 #include <utility>
 
+#include "disflow/posix/timespec.h"
 #include "disflow/saturating.h"
 
 namespace disflow::apps {
@@ -114,10 +115,7 @@ bool FrameHandover::AwaitNews(std::int64_t timeout_ns, std::span<const int> inpu
   while (!HasNews()) {
     const std::chrono::nanoseconds left = end - Clock::now();
     if (left.count() <= 0) return false;
-    // Of 32 bits each on small targets.
-    const timespec timeout{
-        .tv_sec = static_cast<decltype(timespec::tv_sec)>(left.count() / 1'000'000'000),
-        .tv_nsec = static_cast<decltype(timespec::tv_nsec)>(left.count() % 1'000'000'000)};
+    const timespec timeout = posix::ToTimespec(left.count());
     if (::ppoll(waiting.data(), count, &timeout, nullptr) <= 0) continue;
     eventfd_t wakes = 0;
     if (waiting[0].revents != 0) (void)::eventfd_read(changed_.get(), &wakes);

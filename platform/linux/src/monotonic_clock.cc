@@ -4,6 +4,8 @@
 #include <cerrno>
 #include <ctime>
 
+#include "disflow/posix/timespec.h"
+
 namespace disflow::posix {
 namespace {
 
@@ -20,9 +22,7 @@ std::int64_t MonotonicClock::DoNowNs() noexcept {
 
 void MonotonicClock::DoSleepUntilNs(std::int64_t deadline_ns) noexcept {
   if (deadline_ns <= 0) return;
-  timespec deadline{};
-  deadline.tv_sec = static_cast<std::time_t>(deadline_ns / kNsPerS);
-  deadline.tv_nsec = static_cast<decltype(deadline.tv_nsec)>(deadline_ns % kNsPerS);
+  const timespec deadline = ToTimespec(deadline_ns);
   // An absolute deadline, so that signals do not prolong the wait.
   while (::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &deadline, nullptr) == EINTR) {
   }

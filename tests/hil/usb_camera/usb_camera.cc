@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "disflow/posix/monotonic_clock.h"
+#include "disflow/posix/timespec.h"
 
 namespace disflow::hil {
 namespace {
@@ -116,8 +117,7 @@ void UsbCamera::Step() {
   const std::int64_t wait_ns =
       waits_for_time ? std::max<std::int64_t>(due_ns_ - NowNs(), 0) : 100 * kMs;
   pollfd entry{socket_, POLLIN, 0};
-  const timespec timeout{static_cast<time_t>(wait_ns / 1'000'000'000),
-                         static_cast<decltype(timespec::tv_nsec)>(wait_ns % 1'000'000'000)};
+  const timespec timeout = disflow::posix::ToTimespec(wait_ns);
   if (::ppoll(&entry, 1, &timeout, nullptr) > 0) Serve();
 }
 

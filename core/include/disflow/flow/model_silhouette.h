@@ -25,8 +25,8 @@ class ModelSilhouette {
 
   void Add(const Vec2& px) noexcept { cells_[Wrapped(Cell(px.y()))] |= Bit(Cell(px.x())); }
 
-  /// Whether the model is so narrow there that a camera which
-  /// matches windows of pixels may see what is behind it instead: less than half a window.
+  /// Whether the model is so narrow there that a camera which matches windows of pixels may see
+  /// what is behind it instead: less than half a window.
   [[nodiscard]] bool IsNarrowAt(const Vec2& px) const noexcept {
     return ExtentAt(px, 1, 0) <= narrow_cells_ || ExtentAt(px, 0, 1) <= narrow_cells_ ||
            ExtentAt(px, 1, 1) <= narrow_cells_ || ExtentAt(px, 1, -1) <= narrow_cells_;

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <ctime>
+
+namespace disflow::posix {
+
+/// A span or a time as the system's calls take it; both members have 32 bits on small targets.
+/// @param ns Nanoseconds, not negative.
+[[nodiscard]] inline timespec ToTimespec(std::int64_t ns) noexcept {
+  constexpr std::int64_t kNsPerS = 1'000'000'000;
+  timespec time{};
+  time.tv_sec = static_cast<std::time_t>(ns / kNsPerS);
+  time.tv_nsec = static_cast<decltype(time.tv_nsec)>(ns % kNsPerS);
+  return time;
+}
+
+}  // namespace disflow::posix
