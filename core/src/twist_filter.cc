@@ -74,6 +74,13 @@ void TwistFilter::Start(const TwistFilterConfig& config, StampNs stamp_ns,
   RestartMotion();
 }
 
+void TwistFilter::MoveTo(const PoseCameraFromObject& T_co) noexcept {
+  const Vec3 shift_m = T_co.translation() - T_co_.translation();
+  const Vec3 rate_rps = twist_.tail<3>();
+  twist_.head<3>() += rate_rps.cross(shift_m);
+  T_co_ = T_co;
+}
+
 PoseCameraFromObject TwistFilter::Extrapolate(StampNs stamp_ns) const noexcept {
   return Displaced(T_co_, StepSeconds(stamp_ns_, stamp_ns) * twist_);
 }

@@ -129,6 +129,9 @@ class Tracker {
   [[nodiscard]] Aligned Register(const DepthFrame& frame, Estimate& estimate) noexcept;
   [[nodiscard]] Status Conclude(const DepthFrame& frame, Status observed, const Aligned& aligned,
                                 Estimate& estimate) noexcept;
+  [[nodiscard]] bool IsTurnFree(StampNs stamp_ns) const noexcept;
+  [[nodiscard]] Aligned FindTurn(const DepthFrame& frame, Registration<Limits>& registration,
+                                 const Aligned& aligned, RobustScale scale, float& score) noexcept;
   void Follow(StampNs stamp_ns, const Aligned& aligned, const PoseCovariance& covariance,
               bool found_again, Estimate& estimate) noexcept;
   [[nodiscard]] PoseSearchPrior SearchPrior(StampNs stamp_ns) const noexcept;
@@ -188,6 +191,7 @@ class Tracker {
   TwistFilter twist_filter_;
   PoseNoise pose_noise_;
   int global_part_ = 0;  ///< Of a search in all directions, the next.
+  int turn_part_ = 0;    ///< The same of a round about an axis.
   TrackingMonitor monitor_;
   Recognition recognition_;
 };

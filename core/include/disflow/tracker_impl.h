@@ -247,6 +247,7 @@ void Tracker<Limits>::StartAt(StampNs stamp_ns, const PoseObjectFromCamera& T_oc
   gradient_variance_rad2_ = 0.0F;
   unobserved_o_.setZero();
   free_turn_o_.setZero();
+  turn_part_ = 0;
   twist_filter_.Start(config_.twist, stamp_ns, T_oc.Inverse(), registered_covariance_);
   observed_ns_ = stamp_ns;
   monitor_.Start(config_.monitor, stamp_ns);

@@ -34,8 +34,11 @@ template <CapacityProfile Limits>
 void Tracker<Limits>::ForgetContradicted(const DepthFrame& frame, const PoseObjectFromCamera& T_oc,
                                          Estimate& estimate) noexcept {
   FixedVector<Handle, kMostForgotten> forgotten;
+  const bool turn_free = IsTurnFree(frame.stamp_ns);
   (void)CompareWithImage(field_, T_oc, frame.camera, UsableDepth(frame),
                          [&](Handle handle, bool seen) {
+                           // At a turn that may be wrong nothing contradicts what was known.
+                           if (turn_free && !field_.store()[handle].turn_free) return;
                            if (field_.Witness(handle, seen)) (void)forgotten.push_back(handle);
                          });
   const auto forget = [&] {

@@ -11,6 +11,7 @@
 #include "disflow/flow/model_silhouette.h"
 #include "disflow/flow/pose_search.h"
 #include "disflow/flow/pose_uncertainty.h"
+#include "disflow/flow/turn_search.h"
 #include "disflow/flow/weak_direction.h"
 #include "disflow/geometry/covariance.h"
 #include "disflow/memory/every_nth.h"
@@ -41,18 +42,54 @@ typename Tracker<Limits>::Aligned Tracker<Limits>::Register(const DepthFrame& fr
   Aligned aligned =
       registration.Align(field_, model_edges_, config_.registration, start.T_oc, start.T_expected,
                          start.robust_scale, config_.registration.iterations);
+  if (aligned.solved) {
+    estimate.score = registration.ScoreOfAligned(field_, config_.registration, aligned.T_oc);
+    if (IsTurnFree(frame.stamp_ns)) {
+      aligned = FindTurn(frame, registration, aligned, start.robust_scale, estimate.score);
+    }
+  }
   estimate.hypotheses = static_cast<std::uint8_t>(start.tried);
   estimate.iterations = static_cast<std::uint8_t>(aligned.iterations);
   estimate.inliers = static_cast<std::uint16_t>(aligned.inliers);
   estimate.edge_inliers = static_cast<std::uint16_t>(aligned.edge_inliers);
   estimate.rms_m = aligned.rms_m;
-  if (aligned.solved) {
-    estimate.score = registration.ScoreOfAligned(field_, config_.registration, aligned.T_oc);
-  }
   estimate.rejected.residuals_unmatched = static_cast<std::uint32_t>(aligned.unmatched);
   estimate.rejected.residuals_truncated = static_cast<std::uint32_t>(aligned.truncated);
   estimate.rejected.residuals_normal_mismatch = static_cast<std::uint32_t>(aligned.normal_mismatch);
   return aligned;
+}
+
+/// Whether nothing has told the turn about an axis of the object's for some time.
+template <CapacityProfile Limits>
+bool Tracker<Limits>::IsTurnFree(StampNs stamp_ns) const noexcept {
+  constexpr float kForgotten_s = 0.3F;  // in which a hand may turn it by half of what it likes
+  return !free_turn_o_.isZero(0.0F) && Seconds(SpanNs(observed_ns_, stamp_ns)) > kForgotten_s;
+}
+
+/// The registered pose, or one that is turned about the free axis and explains more.
+/// @param score Of what is returned.
+template <CapacityProfile Limits>
+typename Tracker<Limits>::Aligned Tracker<Limits>::FindTurn(const DepthFrame& frame,
+                                                            Registration<Limits>& registration,
+                                                            const Aligned& aligned,
+                                                            RobustScale scale,
+                                                            float& score) noexcept {
+  const TurnAxis axis = AxisOf(free_axis_.Steadied(free_turn_o_));
+  TurnSearch<Limits> search(field_, config_.registration, registration.samples(), aligned.T_oc,
+                            axis, turn_part_);
+  turn_part_ = (turn_part_ + 1) % TurnSearch<Limits>::kParts;
+  if (!search.Find()) return aligned;
+  Aligned turned = registration.Align(field_, model_edges_, config_.registration, search.T_found(),
+                                      search.T_found(), scale, config_.registration.iterations);
+  if (!turned.solved || !search.Confirms(turned.T_oc)) return aligned;
+  const auto plausible = [&](float explained, const PoseObjectFromCamera& T_oc) {
+    return explained * (1.0F - AgreementWith(frame, T_oc).conflict());
+  };
+  const float turned_score = registration.ScoreOfAligned(field_, config_.registration, turned.T_oc);
+  if (plausible(turned_score, turned.T_oc) < plausible(score, aligned.T_oc)) return aligned;
+  score = turned_score;
+  turned.turned = true;
+  return turned;
 }
 
 /// Where to look for the object: near the prediction, after a few frames in vain turned anyhow, and
@@ -137,6 +174,10 @@ void Tracker<Limits>::Follow(StampNs stamp_ns, const Aligned& aligned,
     pose_noise_.Restart();
   } else {
     twist_filter_.Predict(stamp_ns);
+    if (aligned.turned) {
+      twist_filter_.MoveTo(T_oc_.Inverse());
+      pose_noise_.Restart();
+    }
     twist_filter_.Update(T_oc_.Inverse(), covariance.white);
   }
   pose_noise_.Learn(stamp_ns, T_oc_.Inverse(), aligned.center_m, covariance.registered,
@@ -151,6 +192,7 @@ void Tracker<Limits>::Follow(StampNs stamp_ns, const Aligned& aligned,
       RememberGradientVariance(gradient_variance_rad2_, aligned.information.gradient_variance_rad2);
   unobserved_o_ = covariance.unobserved_o;
   free_turn_o_ = covariance.free_turn_o;
+  field_.SetTurnFree(IsTurnFree(stamp_ns));
   free_axis_.Learn(covariance.free_turn_o);
   observed_frames_ = covariance.complete ? std::min(observed_frames_ + 1, kFramesUntilObserved) : 0;
   estimate.pose_covariance = covariance.reported;

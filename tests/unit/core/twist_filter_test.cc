@@ -221,6 +221,29 @@ TEST(TwistFilter, MeasurementThatIsNotFinite_LeavesThePrediction) {
   }
 }
 
+TEST(TwistFilter, AnotherFrameOnTheObject_MovesAsTheObjectDoes) {
+  const Motion motion = Accelerated(Vec3(0.3F, -0.5F, 0.2F), Vec3::Zero(), kAxis, 2.0F, 0.0F);
+  const Transform<Object, Object> turned(ExpSo3(Vec3(0.2F, 1.5F, -0.4F)),
+                                         Vec3(0.06F, 0.0F, -0.03F));
+  const auto T_co = [=](float t) { return motion.T_co(t) * turned; };
+  const auto twist_at = [=](float t) {
+    const Twist twist = motion.twist(t);
+    const Vec3 shift_m = T_co(t).translation() - motion.T_co(t).translation();
+    return Twist{Vec3(twist.linear_mps + twist.angular_rps.cross(shift_m)), twist.angular_rps};
+  };
+  const Motion elsewhere{T_co, twist_at};
+  Following object(motion);
+  object.Run(30);
+  object.filter().MoveTo(elsewhere.T_co(object.TimeNow()));
+  object.GoOnAs(elsewhere);
+  EXPECT_LT(object.LinearError_mps(), 1e-2F);
+  for (int i = 0; i < 5; ++i) {
+    object.Run(1);
+    EXPECT_LT(object.LinearError_mps(), 2e-2F) << i;
+    EXPECT_LT(object.AngularError_rps(), 5e-2F) << i;
+  }
+}
+
 TEST(TwistFilter, RestartedMotion_ForgetsTheVelocityAlone) {
   Following object(Accelerated(Vec3(0.3F, -0.5F, 0.2F), Vec3::Zero(), kAxis, 2.0F, 0.0F));
   object.Run(30);

@@ -50,12 +50,16 @@ class DistanceField {
     hyper_ = {config.length_scale_m, config.prior_gradient_std};
     generation_ = 0.0F;
     piece_variance_m2_ = 0.0F;
+    turn_free_ = false;
     store_.Start(config.cell_size_m, config.crease_cos);
     has_bounds_ = false;
   }
 
   /// Of the surface that is found from now on.
   void SetGeneration(float generation) noexcept { generation_ = generation; }
+  /// Whether surface that is found from now on is found while nothing tells the turn about some
+  /// axis: it may belong elsewhere about that axis.
+  void SetTurnFree(bool turn_free) noexcept { turn_free_ = turn_free; }
   /// How far off a piece of surface is built into the model beside the noise of its samples and of
   /// its pose. Of all surface: as far as is known by now.
   void SetPieceVariance(float variance_m2) noexcept { piece_variance_m2_ = variance_m2; }
@@ -246,6 +250,7 @@ class DistanceField {
   GpHyperparameters hyper_{};
   float generation_ = 0.0F;
   float piece_variance_m2_ = 0.0F;
+  bool turn_free_ = false;
   Vec3 bounds_min_m_ = Vec3::Zero();
   Vec3 bounds_max_m_ = Vec3::Zero();
   bool has_bounds_ = false;

@@ -105,7 +105,10 @@ Fusion DistanceField<Limits>::Add(const SurfaceSample& observation, std::uint32_
   if (handle == kNoHandle) return Fusion::kRefused;
   ClusterType& cluster = store_[handle];
   cluster.last_frame = frame;
-  if (cluster.samples.empty()) cluster.generation = generation_;
+  if (cluster.samples.empty()) {
+    cluster.generation = generation_;
+    cluster.turn_free = turn_free_;
+  }
   const ModelSample sample{observation.position_m, observation.normal,
                            observation.fused_variance_m2, observation.normal_variance, 1};
   if (!cluster.samples.push_back(sample)) {

@@ -48,6 +48,8 @@ class Registration {
     if (wanted > 0) center_c_ /= static_cast<float>(wanted);
     edges_ = &edges;
   }
+  /// The points to register.
+  [[nodiscard]] const Samples& samples() const noexcept { return samples_; }
   /// The points' centroid, camera frame.
   [[nodiscard]] const Vec3& center_c() const noexcept { return center_c_; }
 
@@ -74,13 +76,6 @@ class Registration {
                              int iterations) noexcept;
 
  private:
-  /// How far a distance from the model is what is to be expected, 0..1.
-  [[nodiscard]] static float Explained(float distance_m, float variance_m2) noexcept {
-    constexpr float kTolerance_m = 0.003F;
-    const float expected_m2 = kTolerance_m * kTolerance_m + variance_m2;
-    return expected_m2 / (expected_m2 + distance_m * distance_m);
-  }
-
   static constexpr int kMinInliers = 12;  ///< Twice the unknowns.
   static constexpr int kMinSteps = 5;     ///< The kernels are narrow then.
   static constexpr int kMinSearches = 2;

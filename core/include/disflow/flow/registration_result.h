@@ -39,7 +39,15 @@ struct RegistrationResult {
   int unmatched = 0;
   int truncated = 0;
   int normal_mismatch = 0;
+  bool turned = false;  ///< About an axis about which nothing held it, see TurnSearch.
 };
+
+/// How far a distance from the model is what is to be expected, 0..1.
+[[nodiscard]] inline float Explained(float distance_m, float variance_m2) noexcept {
+  constexpr float kTolerance_m = 0.003F;
+  const float expected_m2 = kTolerance_m * kTolerance_m + variance_m2;
+  return expected_m2 / (expected_m2 + distance_m * distance_m);
+}
 
 /// How far the edges of a frame are believed, 0..1: edges that were seen for the first time agree
 /// with wrong ones here and there, and can shift a face that nothing else holds.

@@ -29,6 +29,9 @@ class TwistFilter {
   void Update(const PoseCameraFromObject& T_co, const Mat6& pose_covariance) noexcept;
   /// Where the object would be at a stamp if it kept its velocity; does not change the state.
   [[nodiscard]] PoseCameraFromObject Extrapolate(StampNs stamp_ns) const noexcept;
+  /// Takes another object frame on the same object for its own: motion stays what it was.
+  /// @param T_co Pose of that frame at the current stamp.
+  void MoveTo(const PoseCameraFromObject& T_co) noexcept;
   /// Forgets velocity and acceleration, as after a jump of the pose.
   void RestartMotion() noexcept;
 

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "disflow/flow/turn_search.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include "disflow/flow/registration_impl.h"
+#include "model_builder.h"
+
+namespace disflow::testing {
+namespace {
+
+using Search = TurnSearch<profiles::Edge>;
+
+constexpr float kDegree = std::numbers::pi_v<float> / 180.0F;
+
+/// Both, as far as they do not lie within each other.
+Shape Together(const Shape& a, const Shape& b) {
+  return {[=](const Vec3& x_m) { return std::min(a.distance_m(x_m), b.distance_m(x_m)); },
+          [=](std::mt19937& random) {
+            while (true) {
+              const bool first = Uniform(random, 0.0F, a.area_m2 + b.area_m2) < a.area_m2;
+              const SurfacePoint point = (first ? a : b).random_point(random);
+              if ((first ? b : a).distance_m(point.position_m) > 0.0F) return point;
+            }
+          },
+          a.area_m2 + b.area_m2};
+}
+
+Transform<Object, Object> AboutZ(float angle_rad) {
+  return {Mat3(ExpSo3(Vec3(0.0F, 0.0F, angle_rad))), Vec3::Zero()};
+}
+
+Shape Wall() { return Cylinder(0.04F, 0.05F, 0.0015F); }
+
+/// Stands out of the wall where it is turned to.
+Shape HandleAt(float angle_rad) {
+  const Transform<Object, Object> beside(Mat3::Identity(), Vec3(0.052F, 0.0F, 0.0F));
+  return Moved(Moved(Box(Vec3(0.014F, 0.006F, 0.03F), 0.001F), beside), AboutZ(angle_rad));
+}
+
+Shape Mug() { return Together(Wall(), HandleAt(0.0F)); }
+
+/// What a camera half a metre away sees of a shape that stands before it, handle to the side.
+class SeenFromTheSide {
+ public:
+  SeenFromTheSide(const Shape& shape, float turn_rad)
+      : T_oc_(TurnedAbout(
+            axis_, turn_rad,
+            PoseCameraFromObject(ExpSo3(Vec3(1.3F, 0.0F, 0.0F)), Vec3(0.02F, -0.01F, 0.5F))
+                .Inverse())) {
+    std::mt19937 random(5);
+    while (!samples_.full()) {
+      const SurfacePoint point = shape.random_point(random);
+      const Vec3 to_eye = T_oc_.translation() - point.position_m;
+      if (point.normal.dot(to_eye) < 0.3F * to_eye.norm()) continue;
+      SurfaceSample sample = Observe(point, Observing{}, random);
+      sample.position_m = T_oc_.Inverse() * sample.position_m;
+      sample.normal = T_oc_.rotation().transpose() * sample.normal;
+      (void)samples_.push_back(sample);
+    }
+  }
+
+  /// The true pose, turned by an angle.
+  [[nodiscard]] PoseObjectFromCamera Off(float angle_rad) const {
+    return TurnedAbout(axis_, angle_rad, T_oc_);
+  }
+  [[nodiscard]] Search Look(const EdgeField& model, const PoseObjectFromCamera& T_oc,
+                            int part) const {
+    return Search(model, config_, samples_, T_oc, axis_, part);
+  }
+  /// How far from the truth the object is turned after a round that starts at some pose.
+  [[nodiscard]] float LeftAfterARound_rad(const EdgeField& model, float off_rad) const {
+    PoseObjectFromCamera T_found = Off(off_rad);
+    for (int part = 0; part < Search::kParts; ++part) {
+      Search search = Look(model, T_found, part);
+      if (search.Find() && search.Confirms(search.T_found())) T_found = search.T_found();
+    }
+    return TurnBetween(T_oc_.rotation(), T_found.rotation()).norm();
+  }
+
+ private:
+  TurnAxis axis_;
+  RegistrationConfig config_;
+  PoseObjectFromCamera T_oc_;
+  Search::Samples samples_;
+};
+
+TEST(TurnSearch, HandleSeenFromItsSide_IsFoundWithinARound_HoweverFarItIsTurned) {
+  const auto model = MakeModel(Mug());
+  for (const float handle_rad : {-0.6F, 0.0F, 0.7F}) {
+    const SeenFromTheSide view(Mug(), handle_rad);
+    for (int degrees = 30; degrees <= 330; degrees += 25) {
+      const float off_rad = static_cast<float>(degrees) * kDegree;
+      EXPECT_LT(view.LeftAfterARound_rad(*model, off_rad), 10.0F * kDegree)
+          << "handle at " << handle_rad << ", off by " << degrees;
+    }
+  }
+}
+
+TEST(TurnSearch, RightPose_IsKept) {
+  const auto model = MakeModel(Mug());
+  const SeenFromTheSide view(Mug(), 0.4F);
+  for (int part = 0; part < Search::kParts; ++part)
+    EXPECT_FALSE(view.Look(*model, view.Off(0.0F), part).Find()) << part;
+}
+
+TEST(TurnSearch, HandleThatWasLearntAgain_WhileTheTurnWasFree_TellsNothing) {
+  constexpr float kOff_rad = 100.0F * kDegree;
+  const Shape again = HandleAt(kOff_rad);
+  const auto left_rad = [&](bool known_to_be_free) {
+    const auto model = MakeModel(Mug());
+    Counters counters;
+    model->SetTurnFree(known_to_be_free);
+    Fuse(again, Observing{}, 100, *model, counters);
+    return SeenFromTheSide(Mug(), 0.0F).LeftAfterARound_rad(*model, kOff_rad);
+  };
+  EXPECT_LT(left_rad(true), 10.0F * kDegree);
+  EXPECT_NEAR(left_rad(false), kOff_rad, 10.0F * kDegree);
+}
+
+TEST(TurnSearch, NothingOnTheWall_FindsNoTurn) {
+  const auto model = MakeModel(Wall());
+  const SeenFromTheSide view(Wall(), 0.0F);
+  for (int part = 0; part < Search::kParts; ++part)
+    EXPECT_FALSE(view.Look(*model, view.Off(0.7F), part).Find()) << part;
+}
+
+TEST(TurnSearch, ObjectWithCorners_IsLeftToItsSlopes) {
+  const Shape box = Box(Vec3(0.05F, 0.03F, 0.04F), 0.0015F);
+  const auto model = MakeModel(box);
+  const SeenFromTheSide view(box, 0.3F);
+  for (int degrees = 20; degrees <= 90; degrees += 10) {
+    for (int part = 0; part < Search::kParts; ++part) {
+      Search search = view.Look(*model, view.Off(static_cast<float>(degrees) * kDegree), part);
+      EXPECT_FALSE(search.Find()) << degrees << ", " << part;
+    }
+  }
+}
+
+TEST(TurnSearch, NoSampleAndNoModel_FindNoTurn) {
+  const auto empty = std::make_unique<EdgeField>();
+  empty->Start(FieldConfig{});
+  const SeenFromTheSide view(Mug(), 0.0F);
+  EXPECT_FALSE(view.Look(*empty, view.Off(1.0F), 0).Find());
+  const auto model = MakeModel(Mug());
+  const RegistrationConfig config;
+  EXPECT_FALSE(Search(*model, config, Search::Samples{}, view.Off(1.0F), TurnAxis{}, 0).Find());
+}
+
+}  // namespace
+}  // namespace disflow::testing
