@@ -72,6 +72,12 @@ class SeenFromTheSide {
                             int part) const {
     return Search(model, config_, samples_, T_oc, axis_, part);
   }
+  /// Whether a round about the true pose turned by an angle finds a turn.
+  [[nodiscard]] bool FindsATurn(const EdgeField& model, float off_rad) const {
+    for (int part = 0; part < Search::kParts; ++part)
+      if (Look(model, Off(off_rad), part).Find()) return true;
+    return false;
+  }
   /// How far from the truth the object is turned after a round that starts at some pose.
   [[nodiscard]] float LeftAfterARound_rad(const EdgeField& model, float off_rad) const {
     PoseObjectFromCamera T_found = Off(off_rad);
@@ -104,8 +110,7 @@ TEST(TurnSearch, HandleSeenFromItsSide_IsFoundWithinARound_HoweverFarItIsTurned)
 TEST(TurnSearch, RightPose_IsKept) {
   const auto model = MakeModel(Mug());
   const SeenFromTheSide view(Mug(), 0.4F);
-  for (int part = 0; part < Search::kParts; ++part)
-    EXPECT_FALSE(view.Look(*model, view.Off(0.0F), part).Find()) << part;
+  EXPECT_FALSE(view.FindsATurn(*model, 0.0F));
 }
 
 TEST(TurnSearch, HandleThatWasLearntAgain_WhileTheTurnWasFree_TellsNothing) {
@@ -125,20 +130,15 @@ TEST(TurnSearch, HandleThatWasLearntAgain_WhileTheTurnWasFree_TellsNothing) {
 TEST(TurnSearch, NothingOnTheWall_FindsNoTurn) {
   const auto model = MakeModel(Wall());
   const SeenFromTheSide view(Wall(), 0.0F);
-  for (int part = 0; part < Search::kParts; ++part)
-    EXPECT_FALSE(view.Look(*model, view.Off(0.7F), part).Find()) << part;
+  EXPECT_FALSE(view.FindsATurn(*model, 0.7F));
 }
 
 TEST(TurnSearch, ObjectWithCorners_IsLeftToItsSlopes) {
   const Shape box = Box(Vec3(0.05F, 0.03F, 0.04F), 0.0015F);
   const auto model = MakeModel(box);
   const SeenFromTheSide view(box, 0.3F);
-  for (int degrees = 20; degrees <= 90; degrees += 10) {
-    for (int part = 0; part < Search::kParts; ++part) {
-      Search search = view.Look(*model, view.Off(static_cast<float>(degrees) * kDegree), part);
-      EXPECT_FALSE(search.Find()) << degrees << ", " << part;
-    }
-  }
+  for (int degrees = 20; degrees <= 90; degrees += 10)
+    EXPECT_FALSE(view.FindsATurn(*model, static_cast<float>(degrees) * kDegree)) << degrees;
 }
 
 TEST(TurnSearch, NoSampleAndNoModel_FindNoTurn) {
