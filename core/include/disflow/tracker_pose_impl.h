@@ -11,6 +11,7 @@
 #include "disflow/flow/model_silhouette.h"
 #include "disflow/flow/pose_search.h"
 #include "disflow/flow/pose_uncertainty.h"
+#include "disflow/flow/recentred.h"
 #include "disflow/flow/turn_search.h"
 #include "disflow/flow/weak_direction.h"
 #include "disflow/geometry/covariance.h"
@@ -151,10 +152,28 @@ Status Tracker<Limits>::Conclude(const DepthFrame& frame, Status observed, const
   if (evidence.registered) {
     Follow(frame.stamp_ns, aligned, covariance, found_again, estimate);
   } else {
+    // A mask shows where it is; what it was doing when it was lost no longer does.
+    const bool masked = frame.mask.given() && evidence.in_view;
+    if (masked && !near && FitsModel(aligned.center_c)) {
+      T_oc_ = Recentred(field_, T_oc_, aligned.center_c);
+    }
     Coast(frame.stamp_ns, estimate);
   }
   if (observed != Status::kOk) return observed;
   return evidence.registered ? Status::kOk : Status::kRegistrationFailed;
+}
+
+/// Whether what was observed is no larger than the model: through a mask that is off the background
+/// is seen, and is farther away.
+/// @param center_c Mean of the samples.
+template <CapacityProfile Limits>
+bool Tracker<Limits>::FitsModel(const Vec3& center_c) const noexcept {
+  float squares_m2 = 0.0F;
+  for (const SurfaceSample& sample : samples_) {
+    squares_m2 += (sample.position_m - center_c).squaredNorm();
+  }
+  const float spread_m = std::sqrt(squares_m2 / static_cast<float>(samples_.size()));
+  return spread_m <= 0.5F * (field_.bounds_max_m() - field_.bounds_min_m()).norm();
 }
 
 /// Takes the registered pose over.

@@ -146,6 +146,25 @@ TEST_P(Loss, AnotherObjectInItsPlace_IsNotTakenForIt) {
   }
 }
 
+TEST_P(Loss, WhileItIsNotRecognised_ItIsSaidToBeWhereItsMaskIs) {
+  // Another object in its place is never recognised, and is all that its mask shows.
+  constexpr int kAway = 60;
+  constexpr double kObject_m = 0.1;  // half of either
+  const bool is_box = GetParam() == ObjectKind::kBox;
+  host::SimulationOptions other = Scene(is_box ? ObjectKind::kBottle : ObjectKind::kBox, 300);
+  other.motion = host::MotionKind::kFlying;
+  host::Simulation replaced(other, host::MakeObjectMesh(other.object));
+  TrackedSequence& sequence = Track(Scene(GetParam(), kAway), kAway);
+  for (int i = kAway + 60; i < kAway + 100; ++i) {
+    DepthFrame frame;
+    replaced.Render(i, frame);
+    const Estimate estimate = sequence.Offer(frame);
+    ASSERT_EQ(estimate.status, Status::kRegistrationFailed) << i;
+    const auto truth = replaced.TruthAt(i).object.pose.translation();
+    EXPECT_LT((estimate.T_co.translation().cast<double>() - truth).norm(), kObject_m) << i;
+  }
+}
+
 TEST_P(Loss, ObjectThatTurnedTooFar_IsNotTakenForTheSameFrame) {
   // A quarter turn goes unseen.
   host::SimulationOptions options = Scene(GetParam(), 300);

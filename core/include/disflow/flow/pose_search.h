@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "disflow/flow/pose_start.h"
+#include "disflow/flow/recentred.h"
 #include "disflow/flow/registration_impl.h"
 #include "disflow/memory/fixed_vector.h"
 
@@ -120,7 +121,6 @@ class PoseSearch {
   static constexpr float kTurnShare_per_rad = 0.006F;
   static constexpr float kBelievedShare = 0.5F;
   static constexpr float kSearchedShare = 0.25F;
-  static constexpr float kMinCosine = 0.3F;
 
   [[nodiscard]] RobustScale Scale(float surface_share, float edge_share) const noexcept {
     return {surface_share * config_.robust_scale_start_m,
@@ -179,23 +179,8 @@ class PoseSearch {
     return ImpulsesApart(registration_.center_c(), T_oc, prior_.T_predicted);
   }
 
-  /// The same rotation, with the observed centroid put onto the centroid of the model's part that
-  /// faces the camera.
   [[nodiscard]] PoseObjectFromCamera Recentred(const PoseObjectFromCamera& T_oc) const noexcept {
-    Vec3 sum = Vec3::Zero();
-    float count = 0.0F;
-    const Vec3& eye_o = T_oc.translation();
-    field_.store().ForEach([&](Handle, const auto& cluster) {
-      const Vec3 to_eye = eye_o - cluster.centroid_m;
-      // What is seen at too flat an angle is not among the samples.
-      if (cluster.mean_normal.dot(to_eye) < kMinCosine * to_eye.norm()) return;
-      const auto samples = static_cast<float>(cluster.samples.size());
-      sum += samples * cluster.centroid_m;
-      count += samples;
-    });
-    if (count < 1.0F) return T_oc;
-    const Vec3 shift = sum / count - T_oc * registration_.center_c();
-    return {T_oc.rotation(), Vec3(T_oc.translation() + shift)};
+    return disflow::Recentred(field_, T_oc, registration_.center_c());
   }
 
   RegistrationType& registration_;
