@@ -27,6 +27,18 @@ Mat6 CovarianceAtPoint(const Mat6& covariance, const Mat3& rotation,
   return jacobian * covariance * jacobian.transpose();
 }
 
+Mat3 VelocityCovarianceOfPlace(const Mat3& place_m2, const Mat3& rate2_rps2) noexcept {
+  Mat3 result = Mat3::Zero();
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      const Mat3 about_i = Skew(Vec3(Vec3::Unit(i)));
+      const Mat3 about_j = Skew(Vec3(Vec3::Unit(j)));
+      result += rate2_rps2(i, j) * about_i * place_m2 * about_j.transpose();
+    }
+  }
+  return result;
+}
+
 float LargestPositionStd(const Mat6& covariance) noexcept {
   return std::sqrt(covariance.diagonal().head<3>().maxCoeff());
 }

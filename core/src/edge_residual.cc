@@ -21,6 +21,8 @@ Residual EdgeResidualOf(const EdgePoint& moved, const ModelEdge& edge, float rad
   residual.distance_m =
       residual.gradient.dot(moved.position_m - edge.position_m) + radius_m * residual.per_radius;
   residual.variance_m2 = moved.variance_m2 + edge.VarianceAlong(residual.gradient);
+  const float tilt_rad = moved.outward.dot(edge.direction);
+  residual.tilt_rad2 = tilt_rad * tilt_rad;
   return residual;
 }
 

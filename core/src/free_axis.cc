@@ -25,7 +25,10 @@ bool FreeAxis::IsSame(const Mat6& free_turn) const noexcept {
 
 void FreeAxis::Learn(const Mat6& free_turn) noexcept {
   if (free_turn.isZero(0.0F) || !free_turn.allFinite()) return;
-  if (!IsSame(free_turn)) frames_ = 0;
+  if (!IsSame(free_turn)) {
+    if (Leaves(free_turn)) return;
+    frames_ = 0;
+  }
   frames_ = std::min(frames_ + 1, kMostFrames);
   if (frames_ == 1) mean_ = free_turn;
   mean_ += (free_turn - mean_) / static_cast<float>(frames_);
@@ -33,6 +36,22 @@ void FreeAxis::Learn(const Mat6& free_turn) noexcept {
 
 Mat6 FreeAxis::Steadied(const Mat6& free_turn) const noexcept {
   return frames_ >= kFewestFrames && IsSame(free_turn) ? mean_ : free_turn;
+}
+
+bool FreeAxis::IsKnown() const noexcept {
+  // Of turns about one axis the norm is the trace; about two alike it is 0.7 of it.
+  const Mat3 mean = Turns(mean_);
+  return frames_ >= kFewestFrames && mean.norm() > kSame * mean.trace();
+}
+
+bool FreeAxis::IsOne(const Mat6& free_turn) const noexcept {
+  return IsKnown() && IsSame(free_turn);
+}
+
+bool FreeAxis::Leaves(const Mat6& free_turn) const noexcept {
+  const Mat3 mean = Turns(mean_);
+  const float about_axis = mean.cwiseProduct(Turns(free_turn)).sum();
+  return IsOne(free_turn) || (IsKnown() && about_axis > kSame * mean.squaredNorm());
 }
 
 }  // namespace disflow

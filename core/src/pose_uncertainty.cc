@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "disflow/flow/pose_start.h"
 #include "disflow/geometry/symmetric_eigen.h"
 
 namespace disflow {
@@ -37,6 +38,30 @@ float Duration_s(const Vec6& direction) noexcept {
                    direction.tail<3>().squaredNorm() / (kAnyRate_rps * kAnyRate_rps));
 }
 
+/// Second moments of an angle.
+struct TurnMoments {
+  float angle2 = 0.0F;
+  float angle_sine = 0.0F;
+  float sine2 = 0.0F;
+  float versine2 = 0.0F;  ///< Of 1 - cos.
+};
+
+/// Of an angle that is anything up to some bound, at most half a turn either way.
+TurnMoments MomentsOf(float variance_rad2) noexcept {
+  constexpr float kHalfTurn_rad = 3.14159265F;
+  constexpr float kSmall_rad = 0.5F;  // where the closed forms would cancel
+  const float a = std::min(std::sqrt(3.0F * variance_rad2), kHalfTurn_rad);
+  const float a2 = a * a;
+  if (a < kSmall_rad) {
+    return {a2 / 3.0F, a2 / 3.0F * (1.0F - a2 / 10.0F), a2 / 3.0F * (1.0F - a2 / 5.0F),
+            a2 * a2 / 20.0F * (1.0F - a2 * 5.0F / 42.0F)};
+  }
+  const float mean_cos = std::sin(a) / a;
+  const float mean_cos2 = std::sin(2.0F * a) / (2.0F * a);  // of twice the angle
+  return {a2 / 3.0F, mean_cos - std::cos(a), 0.5F - 0.5F * mean_cos2,
+          1.5F - 2.0F * mean_cos + 0.5F * mean_cos2};
+}
+
 }  // namespace
 
 PoseUncertainty FindPoseUncertainty(const RegistrationInformation& information,
@@ -53,8 +78,9 @@ PoseUncertainty FindPoseUncertainty(const RegistrationInformation& information,
   const float gradient_variance_rad2 =
       least_gradient_std * least_gradient_std + information.gradient_variance_rad2;
   const Mat6 across = gradient_variance_rad2 * information.across;
+  const Mat6 by_errors = across + information.of_edge_errors;
   Mat6 half;
-  for (int i = 0; i < 6; ++i) half.col(i) = lower.solve(Vec6(across.col(i)));
+  for (int i = 0; i < 6; ++i) half.col(i) = lower.solve(Vec6(by_errors.col(i)));
   Mat6 apparent;
   for (int i = 0; i < 6; ++i) apparent.col(i) = lower.solve(Vec6(half.row(i).transpose()));
   const SymmetricEigen6 directions(apparent);
@@ -62,11 +88,14 @@ PoseUncertainty FindPoseUncertainty(const RegistrationInformation& information,
 
   for (int i = 0; i < 6; ++i) {
     const Vec6 b = upper.solve(Vec6(directions.vectors.col(i)));
-    // No more than what the surface tells can be apparent.
-    const float of_surface = 1.0F - b.dot(of_edges * b);
-    const float share = std::clamp(directions.values[i], 0.0F, std::max(of_surface, 0.0F));
+    // No more than what the surface tells can be apparent of it, and likewise of edges.
+    const float told_by_edges = std::clamp(b.dot(of_edges * b), 0.0F, 1.0F);
+    const float share = std::clamp(b.dot(across * b), 0.0F, 1.0F - told_by_edges) +
+                        std::clamp(b.dot(information.of_edge_errors * b), 0.0F, told_by_edges);
     const bool observed = share < kAllApparent;
-    result.covariance += (1.0F / (observed ? 1.0F - share : kRest)) * b * b.transpose();
+    const Mat6 told = b * b.transpose();
+    result.covariance += (1.0F / (observed ? 1.0F - share : kRest)) * told;
+    result.of_observed += (1.0F / (1.0F - std::min(share, kAllApparent))) * told;
     if (observed) continue;
     const Vec6 u = b / Duration_s(b);
     result.unobserved += u * u.transpose();
@@ -102,18 +131,29 @@ float RememberGradientVariance(float before_rad2, float by_frame_rad2) noexcept 
   return std::max(by_frame_rad2, before_rad2 + (by_frame_rad2 - before_rad2) / kFrames);
 }
 
-Mat3 OffTangent(const Mat6& covariance) noexcept {
-  constexpr float kTiny = 1e-12F;
-  const Mat3 displacement = covariance.topLeftCorner<3, 3>();
-  const Mat3 cross = covariance.topRightCorner<3, 3>();  // E[displacement theta^T]
-  const Vec3 inward_m =
-      0.5F * Vec3(cross(2, 1) - cross(1, 2), cross(0, 2) - cross(2, 0), cross(1, 0) - cross(0, 1));
-  const float theta2 = covariance.diagonal().tail<3>().sum();
-  const float radius2_m2 = displacement.trace() / std::max(theta2, kTiny);
-  const float inward2_m2 = inward_m.squaredNorm();
-  const float share = std::min(1.0F, radius2_m2 / std::max(inward2_m2, kTiny));
-  return share * (inward_m * inward_m.transpose() +
-                  (inward2_m2 / std::max(displacement.trace(), kTiny)) * displacement);
+Mat6 OnItsArc(const Mat6& covariance) noexcept {
+  const Mat3 axes = PrincipalAxes(Mat3(covariance.bottomRightCorner<3, 3>()));
+  const Vec3 variances =
+      (axes.transpose() * covariance.bottomRightCorner<3, 3>() * axes).diagonal();
+  int largest = 0;
+  const float variance_rad2 = variances.maxCoeff(&largest);
+  if (!(variance_rad2 > 0.0F)) return covariance;
+  const Vec3 axis = axes.col(largest);
+  const Vec6 with_angle = covariance.rightCols<3>() * axis;  // E[(displacement, theta) angle]
+  const Mat6 beside = covariance - with_angle * with_angle.transpose() / variance_rad2;
+
+  // Per radian: along the axis, a screw, it goes on for ever; across it, it goes round.
+  const Vec3 tangent_m = with_angle.head<3>() / variance_rad2;
+  Vec6 straight = with_angle / variance_rad2;
+  straight.head<3>() = axis * axis.dot(tangent_m);
+  Vec6 across = Vec6::Zero();
+  across.head<3>() = tangent_m - straight.head<3>();
+  Vec6 inward = Vec6::Zero();
+  inward.head<3>() = axis.cross(tangent_m);
+  const TurnMoments turn = MomentsOf(variance_rad2);
+  return beside + turn.angle2 * straight * straight.transpose() +
+         turn.angle_sine * (straight * across.transpose() + across * straight.transpose()) +
+         turn.sine2 * across * across.transpose() + turn.versine2 * inward * inward.transpose();
 }
 
 }  // namespace disflow

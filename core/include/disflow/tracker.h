@@ -141,7 +141,8 @@ class Tracker {
                                        const PoseObjectFromCamera& T_oc) const noexcept;
   void Coast(StampNs stamp_ns, Estimate& estimate) const noexcept;
   [[nodiscard]] Mat6 Steadied(const Mat6& unobserved_o, const Mat6& free_turn_o) const noexcept;
-  [[nodiscard]] Mat6 TwistCovariance(const TwistFilter& filter) const noexcept;
+  [[nodiscard]] Mat6 TwistCovariance(const TwistFilter& filter,
+                                     const Mat6& pose_covariance) const noexcept;
   [[nodiscard]] PoseCovariance CovarianceOf(const Aligned& aligned,
                                             const DepthFrame& frame) const noexcept;
   [[nodiscard]] bool IsForeign(const Vec3& x_o) const noexcept;

@@ -45,7 +45,7 @@ typename Tracker<Limits>::Aligned Tracker<Limits>::Register(const DepthFrame& fr
                          start.robust_scale, config_.registration.iterations);
   if (aligned.solved) {
     estimate.score = registration.ScoreOfAligned(field_, config_.registration, aligned.T_oc);
-    if (IsTurnFree(frame.stamp_ns)) {
+    if (IsTurnFree(frame.stamp_ns) && free_axis_.IsOne(free_turn_o_)) {
       aligned = FindTurn(frame, registration, aligned, start.robust_scale, estimate.score);
     }
   }
@@ -215,7 +215,7 @@ void Tracker<Limits>::Follow(StampNs stamp_ns, const Aligned& aligned,
   free_axis_.Learn(covariance.free_turn_o);
   observed_frames_ = covariance.complete ? std::min(observed_frames_ + 1, kFramesUntilObserved) : 0;
   estimate.pose_covariance = covariance.reported;
-  estimate.twist_covariance = TwistCovariance(twist_filter_);
+  estimate.twist_covariance = TwistCovariance(twist_filter_, estimate.pose_covariance);
 }
 
 /// The pose at a constant velocity; at one that fades while the object is not seen, since what
@@ -258,7 +258,8 @@ float Tracker<Limits>::ImageSpeed(const DepthFrame& frame) const noexcept {
 
 /// Whether a pose that was searched for is that of the same object frame by what is known of its
 /// motion. Many things look alike from opposite sides: neither may the pose be turned far from the
-/// predicted one, nor may the object have had the time to turn over since it was last seen.
+/// predicted one, nor may the object have had the time to turn over since it was last seen. Of a
+/// turn about an axis about which it looks alike nothing was known before, either.
 template <CapacityProfile Limits>
 bool Tracker<Limits>::IsSameObjectFrame(const DepthFrame& frame,
                                         const PoseObjectFromCamera& T_oc) const noexcept {
@@ -266,9 +267,16 @@ bool Tracker<Limits>::IsSameObjectFrame(const DepthFrame& frame,
   constexpr float kFarthestTurn_rad = 1.6F;
   constexpr float kLongest_s = 0.6F;  // what is moved by hand has come to anything by then
   const float gap_s = Seconds(SpanNs(twist_filter_.stamp_ns(), frame.stamp_ns));
-  return gap_s <= kLongest_s &&
-         TurnBetween(T_oc_.rotation(), T_oc.rotation()).norm() <= kReach_rad &&
-         gap_s * twist_filter_.twist().angular_rps.norm() <= kFarthestTurn_rad;
+  float turned_rad = TurnBetween(T_oc_.rotation(), T_oc.rotation()).norm();
+  float rate_rps = twist_filter_.twist().angular_rps.norm();
+  if (free_axis_.Leaves(free_turn_o_)) {
+    const Vec3 axis_o = AxisOf(free_axis_.mean()).direction;
+    const Vec3 predicted_c = T_oc_.rotation().transpose() * axis_o;
+    const Vec3 axis_c = T_oc.rotation().transpose() * axis_o;
+    turned_rad = std::acos(std::clamp(predicted_c.dot(axis_c), -1.0F, 1.0F));
+    rate_rps = twist_filter_.twist().angular_rps.cross(predicted_c).norm();
+  }
+  return gap_s <= kLongest_s && turned_rad <= kReach_rad && gap_s * rate_rps <= kFarthestTurn_rad;
 }
 
 /// What is known of the motion of an object that is not seen. The filter itself stays at the last
@@ -277,20 +285,26 @@ template <CapacityProfile Limits>
 void Tracker<Limits>::Coast(StampNs stamp_ns, Estimate& estimate) const noexcept {
   TwistFilter coasting = twist_filter_;
   coasting.Predict(stamp_ns);
-  estimate.twist_covariance = TwistCovariance(coasting);
   // What it was then and what has been added since.
   estimate.pose_covariance = registered_covariance_ + coasting.pose_covariance();
+  estimate.twist_covariance = TwistCovariance(coasting, estimate.pose_covariance);
   estimate.weak = FindWeakDirection(estimate.pose_covariance, config_.monitor);
 }
 
 /// The noise of poses is alike for some frames, of which the filter, and PoseNoise, see only what
-/// changes from one to the next.
+/// changes from one to the next. The velocity is that of the origin, wherever on the body that is.
 template <CapacityProfile Limits>
-Mat6 Tracker<Limits>::TwistCovariance(const TwistFilter& filter) const noexcept {
+Mat6 Tracker<Limits>::TwistCovariance(const TwistFilter& filter,
+                                      const Mat6& pose_covariance) const noexcept {
   constexpr float kAlike = 1.5F;
   const Mat6 unobserved_o = Steadied(unobserved_o_, free_turn_o_);
-  return kAlike * filter.twist_covariance() +
-         RotatedCovariance(unobserved_o, T_oc_.rotation().transpose());
+  Mat6 result = kAlike * filter.twist_covariance() +
+                RotatedCovariance(unobserved_o, T_oc_.rotation().transpose());
+  const Vec3 rate_rps = filter.twist().angular_rps;
+  const Mat3 rate2_rps2 = rate_rps * rate_rps.transpose() + result.bottomRightCorner<3, 3>();
+  result.topLeftCorner<3, 3>() +=
+      VelocityCovarianceOfPlace(pose_covariance.topLeftCorner<3, 3>(), rate2_rps2);
+  return result;
 }
 
 /// What a frame left unobserved, with the axis that turns freely where the frames before saw it.
@@ -331,10 +345,15 @@ typename Tracker<Limits>::PoseCovariance Tracker<Limits>::CovarianceOf(
   result.registered = change.covariance;
   result.white = in_camera(pose_noise_.Of(change.covariance));
   result.to_model = in_camera(pose_noise_.Of(uncertainty.covariance));
-  result.reported =
-      result.to_model + in_camera(DriftOf(uncertainty.covariance, placement, config_.registration));
+  result.reported = in_camera(pose_noise_.Of(uncertainty.of_observed) +
+                              DriftOf(uncertainty.of_observed, placement, config_.registration));
   result.unobserved_o = in_object(uncertainty.unobserved);
   result.free_turn_o = in_object(uncertainty.free_turn);
+  // What looks alike at all turns about its axis is recognised by all else.
+  const bool turns_freely = free_axis_.Leaves(free_turn_o_) && free_axis_.IsOne(result.free_turn_o);
+  if (turns_freely && (uncertainty.unobserved - uncertainty.free_turn).isZero(0.0F)) {
+    result.to_model = in_camera(pose_noise_.Of(uncertainty.of_observed));
+  }
   if (uncertainty.IsComplete() && observed_frames_ < kFramesUntilObserved &&
       !monitor_.Doubts(frame.stamp_ns)) {
     // One frame that seems to tell it does not: it stays the object's own axis. Of an object that
@@ -346,9 +365,7 @@ typename Tracker<Limits>::PoseCovariance Tracker<Limits>::CovarianceOf(
       RotatedCovariance(Steadied(result.unobserved_o, result.free_turn_o), R_co);
   result.complete = uncertainty.IsComplete();
   if (!result.twist_unobserved.isZero(0.0F)) {
-    const Mat6 turned = unobserved_s * unobserved_s * result.twist_unobserved;
-    result.reported += turned;
-    result.reported.template topLeftCorner<3, 3>() += OffTangent(turned);
+    result.reported += OnItsArc(unobserved_s * unobserved_s * result.twist_unobserved);
   }
   result.white.diagonal().array() += kDefinedPoseVariance;
   result.reported.diagonal().array() += kDefinedPoseVariance;

@@ -54,6 +54,35 @@ TEST(WeakAxis, TurnOfACan_IsNeverClaimedToBeKnown) {
   }
 }
 
+// How it is turned about its axis cannot be known, before and after: all else is.
+TEST(WeakAxis, CanThatWasHiddenForSecondsAndMoved_IsRecognised) {
+  constexpr int kHidden = 100;
+  constexpr int kBack = 160;
+  constexpr int kHalfASecond = 15;
+  host::SimulationOptions options = Scene(host::ObjectKind::kCan, kBack + 30);
+  options.motion = host::MotionKind::kFast;
+  TrackedSequence sequence(options);
+  sequence.Run(kBack + 30, [](int i) {
+    return i >= kHidden && i < kBack ? TrackedSequence::Fate::kBlank : TrackedSequence::Fate::kSeen;
+  });
+  ASSERT_EQ(sequence.At(kBack - 1).estimate.state, TrackingState::kLost);
+  for (const TrackedFrame& frame : sequence.frames()) {
+    if (frame.index < kBack) continue;
+    EXPECT_EQ(frame.estimate.reset_counter, 0) << "frame " << frame.index;
+    if (frame.index < kBack + kHalfASecond) continue;
+    EXPECT_EQ(frame.estimate.status, Status::kOk) << "frame " << frame.index;
+    // The turn that the pose is off by leaves the can's middle and its axis in place.
+    const auto truth = sequence.Truth(frame.index).object.pose;
+    const Transform<Camera, Object, double> said(
+        frame.estimate.T_co.rotation().cast<double>(),
+        host::Vec3d(frame.estimate.T_co.translation().cast<double>()));
+    const auto claimed = said * sequence.T_true().Inverse();
+    const host::Vec3d axis = truth.rotation().col(2);
+    EXPECT_GT(axis.dot(claimed.rotation().col(2)), std::cos(2.0 * 3.14159 / 180.0));
+    EXPECT_LT((claimed.translation() - truth.translation()).norm(), 0.003);
+  }
+}
+
 TEST(WeakAxis, OfABox_IsNeverNamed) {
   const TrackedSequence sequence = Track(host::ObjectKind::kBox, host::NoiseKind::kWhite);
   for (const TrackedFrame& frame : sequence.frames())
@@ -77,7 +106,7 @@ TEST(WeakAxis, TurnOfACanUnderCorrelatedNoise_IsMostlySaidToBeUnknown) {
     if (doubts && frame.off_deg < 3.0 * std_deg) ++said;
   }
   ASSERT_GT(farthest_deg, 10.0);
-  EXPECT_GT(2 * said, frames) << said << " of " << frames;
+  EXPECT_GT(10 * said, 9 * frames) << said << " of " << frames;
 }
 
 TEST(WeakAxis, OfABoxUnderCorrelatedNoise_IsNeverNamed) {

@@ -57,6 +57,23 @@ TEST(CovarianceAtPoint, ThereAndBack_IsTheSame) {
   EXPECT_LT((back - covariance).norm(), 1e-5F * there.norm());
 }
 
+TEST(VelocityCovarianceOfPlace, IsThatOfRateTimesDisplacement) {
+  const Mat6 place_and_rate = testing::RandomPositiveDefinite(4);
+  const Mat3 place_m2 = place_and_rate.topLeftCorner<3, 3>();
+  const Mat3 rate2_rps2 = place_and_rate.bottomRightCorner<3, 3>();
+  const Mat3 places_m = place_m2.llt().matrixL();
+  const Mat3 rates_rps = rate2_rps2.llt().matrixL();
+  Mat3 expected = Mat3::Zero();
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      const Vec3 velocity_mps = Vec3(rates_rps.col(i)).cross(Vec3(places_m.col(j)));
+      expected += velocity_mps * velocity_mps.transpose();
+    }
+  }
+  EXPECT_LT((VelocityCovarianceOfPlace(place_m2, rate2_rps2) - expected).norm(),
+            1e-5F * expected.norm());
+}
+
 TEST(CovarianceAtPoint, OfATurn_ShowsAtTheEndOfTheLever) {
   Mat6 turn = Mat6::Zero();
   turn(5, 5) = 0.01F;  // 0.1 rad about z

@@ -54,6 +54,38 @@ TEST(FreeAxis, AnotherAxis_TakesItsPlaceAtOnce) {
   EXPECT_EQ(axis.Steadied(upright), upright);
 }
 
+TEST(FreeAxis, IsOne_OnceTenFramesAgreeAndThisOneDoes) {
+  FreeAxis axis;
+  const Mat6 upright = TurnAbout(Vec3::UnitZ(), Vec3(0.0F, 0.02F, 0.0F));
+  for (int i = 0; i < 9; ++i) axis.Learn(upright);
+  EXPECT_FALSE(axis.IsOne(upright));
+  axis.Learn(upright);
+  EXPECT_TRUE(axis.IsOne(upright));
+  EXPECT_FALSE(axis.IsOne(TurnAbout(Vec3::UnitX(), Vec3::Zero())));
+}
+
+TEST(FreeAxis, SeenLikeABall_StaysKnown) {
+  FreeAxis axis;
+  const Mat6 upright = TurnAbout(Vec3::UnitZ(), Vec3::Zero());
+  const Mat6 ball = upright + TurnAbout(Vec3::UnitX(), Vec3::Zero());
+  EXPECT_FALSE(axis.Leaves(upright));
+  for (int i = 0; i < 10; ++i) axis.Learn(upright);
+  for (int i = 0; i < 30; ++i) axis.Learn(ball);
+  EXPECT_TRUE(axis.Leaves(ball));
+  EXPECT_FALSE(axis.IsOne(ball));
+  EXPECT_TRUE(axis.IsOne(upright));
+  EXPECT_TRUE(axis.Leaves(0.5F * upright));
+  EXPECT_FALSE(axis.Leaves(TurnAbout(Vec3::UnitX(), Vec3::Zero())));
+  EXPECT_FALSE(axis.Leaves(Mat6::Zero()));
+}
+
+TEST(FreeAxis, OfABall_IsNeverOne) {
+  FreeAxis axis;
+  const Mat6 ball = TurnAbout(Vec3::UnitZ(), Vec3::Zero()) + TurnAbout(Vec3::UnitX(), Vec3::Zero());
+  for (int i = 0; i < 30; ++i) axis.Learn(ball);
+  EXPECT_FALSE(axis.IsOne(ball));
+}
+
 TEST(FreeAxis, FrameThatTellsNothing_ChangesNothing) {
   FreeAxis axis;
   const Mat6 turn = TurnAbout(Vec3::UnitZ(), Vec3(0.0F, 0.02F, 0.0F));

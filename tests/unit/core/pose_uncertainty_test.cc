@@ -10,6 +10,7 @@
 #include "disflow/flow/normal_equations.h"
 #include "disflow/flow/residual_sums_impl.h"
 #include "disflow/geometry/covariance.h"
+#include "disflow/geometry/transform.h"
 
 namespace disflow {
 namespace {
@@ -61,6 +62,7 @@ TEST(PoseUncertainty, TurnOfACan_IsUnobservedThoughGradientsSeemToTellIt) {
   ASSERT_TRUE(uncertainty.solved);
   EXPECT_FALSE(uncertainty.IsComplete());
   EXPECT_GT(Std(uncertainty.covariance, 5), 0.2F);
+  EXPECT_LT(20.0F * Std(uncertainty.of_observed, 5), Std(uncertainty.covariance, 5));
   // The direction is the turn about the axis, and as fast as anything may turn.
   EXPECT_NEAR(uncertainty.unobserved(5, 5), 9.0F, 0.5F);
   EXPECT_LT((uncertainty.unobserved.topLeftCorner<3, 3>().norm()), 0.01F);
@@ -117,6 +119,24 @@ TEST(PoseUncertainty, TurnThatEdgesTell_IsObservedAsWellAsTheyTellIt) {
   const float by_edges_rad = kEdgeStd_m / (kRadius_m * std::sqrt(float{kEdges}));
   EXPECT_GT(Std(uncertainty.covariance, 5), 0.8F * by_edges_rad);
   EXPECT_LT(Std(uncertainty.covariance, 5), 1.3F * by_edges_rad);
+}
+
+TEST(PoseUncertainty, TurnThatEdgesTellByTheirErrors_StaysUnobserved) {
+  RegistrationInformation information = WithEdges(SeenBody(0.02F), 50, 1e-3F);
+  information.of_edge_errors = 0.6F * (information.total - information.surface);
+  const PoseUncertainty uncertainty = FindPoseUncertainty(information, kGradientStd_rad);
+  ASSERT_TRUE(uncertainty.solved);
+  EXPECT_FALSE(uncertainty.IsComplete());
+  EXPECT_NEAR(uncertainty.unobserved(5, 5), 9.0F, 0.5F);
+}
+
+TEST(PoseUncertainty, ErrorsOfEdges_TakeNothingOffWhatTheSurfaceTells) {
+  RegistrationInformation information = SeenBody(0.0F, 0.4F);
+  information.of_edge_errors = 100.0F * information.total;
+  const PoseUncertainty uncertainty = FindPoseUncertainty(information, 0.0F);
+  ASSERT_TRUE(uncertainty.solved);
+  EXPECT_TRUE(uncertainty.IsComplete());
+  EXPECT_LT((information.total * uncertainty.covariance - Mat6::Identity()).norm(), 0.05F);
 }
 
 TEST(PoseUncertainty, TurnThatAFewVagueEdgesTell_StaysUnobserved) {
@@ -212,26 +232,47 @@ TEST(GradientVariance, OfAFrameThatTellsNothing_StaysAsItIs) {
   EXPECT_EQ(RememberGradientVariance(0.01F, std::numeric_limits<float>::quiet_NaN()), 0.01F);
 }
 
-// A point on a circle, turned by a normally distributed angle: its true mean square distance from
-// the tangent, by sampling, is what the covariance says or less.
-TEST(OffTangent, CoversWhereATurnedPointIs) {
-  for (const float angle_std : {0.1F, 0.5F, 1.5F}) {
-    std::mt19937 random(1);
-    std::normal_distribution<float> angle(0.0F, angle_std);
-    float inward2_m2 = 0.0F;
-    constexpr int kDraws = 20000;
-    for (int i = 0; i < kDraws; ++i) {
-      const float inward_m = kRadius_m * (1.0F - std::cos(angle(random)));
-      inward2_m2 += inward_m * inward_m / kDraws;
+// A point on a circle, turned by an angle that is anything up to a bound: what is said of where it
+// is are the moments of such points.
+TEST(OnItsArc, HasTheMomentsOfATurnedPoint) {
+  const Vec3 axis = Vec3(1.0F, -2.0F, 3.0F).normalized();
+  const Vec3 radius_m = kRadius_m * axis.cross(Vec3::UnitX()).normalized();
+  for (const float bound : {0.1F, 0.45F, 0.55F, 1.5F, 3.1415F}) {
+    Mat6 truth = Mat6::Zero();
+    constexpr int kAngles = 2000;
+    for (int i = 0; i < kAngles; ++i) {
+      const float share =
+          (2.0F * static_cast<float>(i) + 1.0F) / static_cast<float>(kAngles) - 1.0F;
+      Vec6 moved;
+      moved.tail<3>() = share * bound * axis;
+      moved.head<3>() = ExpSo3(Vec3(share * bound * axis)) * radius_m - radius_m;
+      truth += moved * moved.transpose() / static_cast<float>(kAngles);
     }
     Mat6 turn = Mat6::Zero();
-    turn(5, 5) = angle_std * angle_std;
-    const Mat6 at_point = CovarianceAtPoint(turn, Mat3::Identity(), Vec3(kRadius_m, 0.0F, 0.0F));
-    const Mat3 off_m2 = OffTangent(at_point);
-    EXPECT_GT(3.1F * off_m2(0, 0), inward2_m2) << angle_std;  // E[theta^4] = 3 sigma^4
-    EXPECT_LE(off_m2(0, 0), 1.01F * kRadius_m * kRadius_m) << angle_std;
-    EXPECT_NEAR(off_m2(2, 2), 0.0F, 1e-9F);
+    turn.bottomRightCorner<3, 3>() = bound * bound / 3.0F * axis * axis.transpose();
+    const Mat6 said = OnItsArc(CovarianceAtPoint(turn, Mat3::Identity(), radius_m));
+    const float scale = truth.diagonal().maxCoeff();
+    EXPECT_LT((said - truth).norm(), 0.01F * scale) << bound;
+    const Mat3 off_m2 = (said - truth).topLeftCorner<3, 3>();
+    const Mat3 true_m2 = truth.topLeftCorner<3, 3>();
+    EXPECT_LT(off_m2.norm(), 0.01F * true_m2.norm()) << bound;
   }
+}
+
+TEST(OnItsArc, NoTurn_IsMoreThanHalfATurn) {
+  Mat6 turn = Mat6::Zero();
+  turn(5, 5) = 100.0F;
+  const Mat6 said = OnItsArc(CovarianceAtPoint(turn, Mat3::Identity(), Vec3(kRadius_m, 0, 0)));
+  EXPECT_NEAR(said(5, 5), 3.29F, 0.01F);
+  EXPECT_NEAR(said(0, 0), 1.5F * kRadius_m * kRadius_m, 0.01F * kRadius_m * kRadius_m);
+  EXPECT_NEAR(said(1, 1), 0.5F * kRadius_m * kRadius_m, 0.01F * kRadius_m * kRadius_m);
+}
+
+TEST(OnItsArc, WhatElseIsUncertain_StaysAsItIs) {
+  Mat6 covariance = Mat6::Zero();
+  covariance.diagonal() << 1e-4F, 2e-4F, 3e-4F, 1e-6F, 2e-6F, 3e-6F;
+  EXPECT_LT((OnItsArc(covariance) - covariance).norm(), 1e-8F);
+  EXPECT_EQ(OnItsArc(Mat6::Zero()), Mat6::Zero());
 }
 
 }  // namespace

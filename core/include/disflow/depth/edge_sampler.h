@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "disflow/config.h"
+#include "disflow/depth/contour_bend.h"
 #include "disflow/depth/object_outline.h"
 #include "disflow/depth/outline_scale.h"
 #include "disflow/depth/surface_sample.h"
@@ -67,8 +68,12 @@ class EdgeSampler {
     };
     const auto step = static_cast<float>(std::max(surfaces.block_px(), 2));
     const float first_px = static_cast<float>(config.border_px) + 0.75F * step;
-    auto near = surface_at(first_px);
-    if (!near.valid) near = surface_at(first_px + step);
+    float near_px = first_px;
+    auto near = surface_at(near_px);
+    if (!near.valid) {
+      near_px += step;
+      near = surface_at(near_px);
+    }
     const auto inner = surface_at(first_px + 2.0F * step);
     if (!near.valid || !inner.valid || near.cos_incidence < config.edge_min_cos_incidence)
       return false;
@@ -104,6 +109,10 @@ class EdgeSampler {
     const float along_normal_m2 =
         near.variance_m2 + near.normal_variance * (edge.position_m - near.position_m).squaredNorm();
     edge.depth_variance_m2 = along_normal_m2 * ray.squaredNorm() / (facing * facing);
+    edge.bend_m = ContourBend({near.cos_incidence, inner.cos_incidence,
+                               pixel_m * (near_px + point.distance_px),
+                               pixel_m * (first_px + 2.0F * step + point.distance_px),
+                               near.normal_variance + inner.normal_variance});
     return edge.direction.allFinite();
   }
 

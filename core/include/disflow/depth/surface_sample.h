@@ -27,6 +27,7 @@ struct EdgePoint {
   Vec3 outward = Vec3::Zero();
   float variance_m2 = 0.0F;        ///< Of the position along `outward`.
   float depth_variance_m2 = 0.0F;  ///< Of the position along the ray.
+  float bend_m = 0.0F;             ///< See ContourBend().
   /// The surface beside it is flat beyond doubt. Other points make no edges, but find known ones.
   bool steady = true;
 };

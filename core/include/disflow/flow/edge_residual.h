@@ -66,6 +66,21 @@ class EdgeResiduals {
     return residual;
   }
 
+  /// A residual as it would be if its edge ran across itself in the image: what errors of the
+  /// direction let it tell in part.
+  [[nodiscard]] Residual Along(int i, const PoseObjectFromCamera& T_oc,
+                               Residual residual) const noexcept {
+    residual.gradient = residual.gradient.cross(T_oc.rotation() * edges_[i].ray);
+    return residual;
+  }
+  /// A residual as it would be if its edge lay at the origin, but for what it may lie behind
+  /// where it was taken for.
+  [[nodiscard]] Residual Behind(int i, const PoseObjectFromCamera& T_oc,
+                                Residual residual) const noexcept {
+    residual.point_m = edges_[i].bend_m * (T_oc.rotation() * edges_[i].ray);
+    return residual;
+  }
+
  private:
   const Model& model_;
   const Edges& edges_;

@@ -17,11 +17,18 @@ struct RegistrationInformation {
   Mat6 across = Mat6::Zero();
   /// How far they are off, as the normals of this frame's samples show it [rad^2].
   float gradient_variance_rad2 = 0.0F;
+  /// What edges contribute to H by errors of their directions and depths: pieces of a bent line,
+  /// each taken for straight, and the outlines of a can's side, where there is no edge, seem to
+  /// tell its turn.
+  Mat6 of_edge_errors = Mat6::Zero();
 };
 
 /// How well one registration knows the pose.
 struct PoseUncertainty {
   Mat6 covariance = Mat6::Zero();  ///< Of (position, rotation).
+  /// The same without what it lets happen along directions of which nothing is told: how far the
+  /// object can have moved along them is a matter of time.
+  Mat6 of_observed = Mat6::Zero();
   /// Sum of u u^T over the directions u of which neither surface nor edges tell anything, each as
   /// far as an object may move along it in a second. Zero when there are none.
   Mat6 unobserved = Mat6::Zero();
@@ -33,9 +40,10 @@ struct PoseUncertainty {
 };
 
 /// Covariance from information with errors in the variables: a gradient that is off by a small
-/// angle looks as if a can's side told a rotation about the can's axis. What such errors explain is
-/// taken off the information, but never what the edges tell; directions of which they explain half
-/// and more count as unobserved.
+/// angle looks as if a can's side told a rotation about the can's axis, and an edge that runs a
+/// little otherwise as if its lid did. What such errors explain is taken off the information, but
+/// no more of either than it tells; directions of which they explain half and more count as
+/// unobserved.
 /// Fuller, "Measurement Error Models", section 1.2.
 /// @param least_gradient_std Error of the field's gradients where the frame shows none, rad.
 [[nodiscard]] PoseUncertainty FindPoseUncertainty(const RegistrationInformation& information,
@@ -52,10 +60,12 @@ struct PoseUncertainty {
 /// normals change slowly; one frame that happens to agree with them makes them no better.
 [[nodiscard]] float RememberGradientVariance(float before_rad2, float by_frame_rad2) noexcept;
 
-/// Covariance of the position that a point which turns by an uncertain angle has beyond its
-/// tangent: towards the axis by theta x displacement / 2, along the tangent as far, and not farther
-/// than the point is from the axis.
+/// The covariance of a pose that turns by an uncertain angle. One that is linear in the angle has
+/// the point fly off along its tangent: the point stays on its circle, and no angle is more than
+/// half a turn. Of the turn about the axis about which it is largest, which is taken to be anything
+/// up to a bound; what else is uncertain stays as it is.
 /// @param covariance Of (displacement of the point, theta).
-[[nodiscard]] Mat3 OffTangent(const Mat6& covariance) noexcept;
+/// @return Second moments of the same about where the point is.
+[[nodiscard]] Mat6 OnItsArc(const Mat6& covariance) noexcept;
 
 }  // namespace disflow

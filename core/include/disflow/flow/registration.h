@@ -94,6 +94,10 @@ class Registration {
   [[nodiscard]] static Matching MatchingAfter(const Vec6& xi, int steps,
                                               const RobustScale& scale) noexcept;
 
+  [[nodiscard]] static Mat6 OfEdgeErrors(EdgeResiduals<Limits>& edges,
+                                         const RegistrationConfig& config, const RobustScale& scale,
+                                         const Result& result) noexcept;
+
   /// One line per kind of residual.
   [[nodiscard]] NormalEquations Linearise(SurfaceResiduals<Limits>& surfaces,
                                           EdgeResiduals<Limits>& edges,

@@ -96,8 +96,32 @@ RegistrationResult Registration<Limits>::Align(const Field& field, const Model& 
   if (result.solved) {
     result.rounding = {edges.radius_m(), joint.RadiusVariance(equations)};
     result.edge_spread = SpreadOf<Limits::kMaxEdgePoints>(edges, result.T_oc);
+    result.information.of_edge_errors = OfEdgeErrors(edges, config, scale, result);
   }
   return result;
+}
+
+/// What the edges of the last step tell by errors of their directions, and of how far they are.
+template <class Limits>
+Mat6 Registration<Limits>::OfEdgeErrors(EdgeResiduals<Limits>& edges,
+                                        const RegistrationConfig& config, const RobustScale& scale,
+                                        const Result& result) noexcept {
+  const ResidualWeighting weighting{config, scale.edges_m, result.edge_trust};
+  ResidualSums along;
+  ResidualSums behind;
+  for (int i = 0; i < edges.size(); ++i) {
+    const Residual edge = edges.At(i, result.T_oc, 0.0F, Matching::kLinear);
+    along.Add(edges.Along(i, result.T_oc, edge), weighting, result.center_m);
+    behind.Add(edges.Behind(i, result.T_oc, edge), weighting, Vec3::Zero());
+  }
+  NormalEquations of_directions;
+  NormalEquations of_depths;
+  of_directions += along.normals;
+  of_depths += behind.normals;
+  Mat6 by_errors = along.mean_tilt_rad2() * of_directions.h;
+  // A shift along the ray shifts nothing in the image.
+  by_errors.bottomRightCorner<3, 3>() += of_depths.h.bottomRightCorner<3, 3>();
+  return by_errors;
 }
 
 template <class Limits>

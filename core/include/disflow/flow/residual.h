@@ -42,8 +42,8 @@ struct Residual {
   float variance_m2 = 0.0F;  ///< Of d: observation and model together.
   float per_radius = 0.0F;   ///< Derivative of d by the radius of the object's edges.
   float generation = 0.0F;   ///< Of the piece of surface, see Cluster.
-  /// Squared angle between the observation's normal and grad d, per component, less what the
-  /// observation's own noise explains [rad^2].
+  /// Squared angle between what the observation says of the gradient's direction and grad d: of a
+  /// normal per component and less what its own noise explains, of an edge in the image [rad^2].
   float tilt_rad2 = 0.0F;
 };
 

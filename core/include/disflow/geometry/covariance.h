@@ -20,6 +20,12 @@ namespace disflow {
 [[nodiscard]] Mat6 CovarianceAtPoint(const Mat6& covariance, const Mat3& rotation,
                                      const Vec3& to_point_m) noexcept;
 
+/// Covariance of the velocity that a point of a turning body is taken for to have because its place
+/// is uncertain: that of rate x displacement.
+/// @param place_m2 Covariance of the displacement.
+/// @param rate2_rps2 Mean of rate rate^T.
+[[nodiscard]] Mat3 VelocityCovarianceOfPlace(const Mat3& place_m2, const Mat3& rate2_rps2) noexcept;
+
 /// Standard deviations along the axis along which they are largest.
 [[nodiscard]] float LargestPositionStd(const Mat6& covariance) noexcept;
 [[nodiscard]] float LargestRotationStd(const Mat6& covariance) noexcept;
