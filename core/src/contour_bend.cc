@@ -8,7 +8,6 @@ namespace disflow {
 
 float ContourBend(const OutlineProfile& profile) noexcept {
   constexpr float kLeastVariance_rad2 = 1e-8F;
-  constexpr float kMostExponent = 30.0F;
   if (!(profile.near_m > 0.0F)) return 0.0F;
   // Angle between ray and surface: 0 where the ray touches a circle of radius R, from where
   // R (1 - cos angle) leads across the rays to the near window.
@@ -23,7 +22,7 @@ float ContourBend(const OutlineProfile& profile) noexcept {
   // Likelihood of a circle beside that of a plane, neither of which was likelier before.
   const float against = (off_rad * off_rad - seen_rad * seen_rad) /
                         (2.0F * std::max(profile.variance_rad2, kLeastVariance_rad2));
-  const float round = 1.0F / (1.0F + std::exp(std::clamp(against, -kMostExponent, kMostExponent)));
+  const float round = 1.0F / (1.0F + std::exp(against));
   const float radius_m = profile.near_m / std::max(1.0F - cos_near, 1e-6F);
   const float behind_m =
       radius_m * sin_near - profile.near_m * cos_near / std::max(sin_near, 1e-3F);

@@ -51,7 +51,7 @@ bool FreeAxis::IsOne(const Mat6& free_turn) const noexcept {
 bool FreeAxis::Leaves(const Mat6& free_turn) const noexcept {
   const Mat3 mean = Turns(mean_);
   const float about_axis = mean.cwiseProduct(Turns(free_turn)).sum();
-  return IsOne(free_turn) || (IsKnown() && about_axis > kSame * mean.squaredNorm());
+  return IsKnown() && (IsSame(free_turn) || about_axis > kSame * mean.squaredNorm());
 }
 
 }  // namespace disflow

@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "disflow/flow/pose_start.h"
 #include "disflow/geometry/symmetric_eigen.h"
@@ -48,9 +49,8 @@ struct TurnMoments {
 
 /// Of an angle that is anything up to some bound, at most half a turn either way.
 TurnMoments MomentsOf(float variance_rad2) noexcept {
-  constexpr float kHalfTurn_rad = 3.14159265F;
   constexpr float kSmall_rad = 0.5F;  // where the closed forms would cancel
-  const float a = std::min(std::sqrt(3.0F * variance_rad2), kHalfTurn_rad);
+  const float a = std::min(std::sqrt(3.0F * variance_rad2), std::numbers::pi_v<float>);
   const float a2 = a * a;
   if (a < kSmall_rad) {
     return {a2 / 3.0F, a2 / 3.0F * (1.0F - a2 / 10.0F), a2 / 3.0F * (1.0F - a2 / 5.0F),

@@ -75,7 +75,7 @@ typename Tracker<Limits>::Aligned Tracker<Limits>::FindTurn(const DepthFrame& fr
                                                             const Aligned& aligned,
                                                             RobustScale scale,
                                                             float& score) noexcept {
-  const TurnAxis axis = AxisOf(free_axis_.Steadied(free_turn_o_));
+  const TurnAxis axis = AxisOf(free_axis_.mean());
   TurnSearch<Limits> search(field_, config_.registration, registration.samples(), aligned.T_oc,
                             axis, turn_part_);
   turn_part_ = (turn_part_ + 1) % TurnSearch<Limits>::kParts;

@@ -20,6 +20,7 @@ using EdgeTracker = Tracker<profiles::Edge>;
 struct TrackedFrame {
   int index = 0;
   Estimate estimate;
+  Transform<Camera, Object, double> T_claimed;  ///< Of the simulated object's own frame.
   double off_m = 0.0;
   double off_deg = 0.0;
 };
@@ -101,9 +102,9 @@ class TrackedSequence {
       tied_ = true;
       counter_ = result.estimate.reset_counter;
     }
-    const auto claimed = said * tie_;
-    result.off_m = (claimed.translation() - truth.translation()).norm();
-    const double off_rad = TurnBetween(truth.rotation(), claimed.rotation()).norm();
+    result.T_claimed = said * tie_;
+    result.off_m = (result.T_claimed.translation() - truth.translation()).norm();
+    const double off_rad = TurnBetween(truth.rotation(), result.T_claimed.rotation()).norm();
     result.off_deg = off_rad * 180.0 / 3.14159265358979;
     frames_.push_back(result);
   }

@@ -73,13 +73,9 @@ TEST(WeakAxis, CanThatWasHiddenForSecondsAndMoved_IsRecognised) {
     EXPECT_EQ(frame.estimate.status, Status::kOk) << "frame " << frame.index;
     // The turn that the pose is off by leaves the can's middle and its axis in place.
     const auto truth = sequence.Truth(frame.index).object.pose;
-    const Transform<Camera, Object, double> said(
-        frame.estimate.T_co.rotation().cast<double>(),
-        host::Vec3d(frame.estimate.T_co.translation().cast<double>()));
-    const auto claimed = said * sequence.T_true().Inverse();
     const host::Vec3d axis = truth.rotation().col(2);
-    EXPECT_GT(axis.dot(claimed.rotation().col(2)), std::cos(2.0 * 3.14159 / 180.0));
-    EXPECT_LT((claimed.translation() - truth.translation()).norm(), 0.003);
+    EXPECT_GT(axis.dot(frame.T_claimed.rotation().col(2)), std::cos(2.0 * 3.14159 / 180.0));
+    EXPECT_LT(frame.off_m, 0.003);
   }
 }
 
