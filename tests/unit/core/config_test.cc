@@ -101,6 +101,8 @@ TEST(Config, BothEndsOfEveryRange_AreAllowed) {
     config.segmenter.max_range_m = 100.0F;
     config.sampler.min_block_px = 1;
     config.sampler.max_block_px = 64;
+    config.field.merge_radius_m = 1e-4F;
+    config.registration.match_radius_m = 1.0F;
     Config lowest = config;
     const std::string name = ChangeField(lowest, i, kMinimum);
     EXPECT_EQ(Validate(lowest).field, nullptr) << name;
@@ -122,6 +124,14 @@ TEST(Config, LargestBlockBelowSmallest_IsNamed) {
   config.sampler.min_block_px = 8;
   config.sampler.max_block_px = 7;
   EXPECT_STREQ(Validate(config).field, "sampler.max_block_px");
+}
+
+TEST(Config, MatchesNearerThanSamplesLieApart_AreNamed) {
+  Config config;
+  config.field.merge_radius_m = 0.03F;
+  const ConfigIssue issue = Validate(config);
+  EXPECT_STREQ(issue.field, "registration.match_radius_m");
+  EXPECT_FLOAT_EQ(static_cast<float>(issue.min), 0.03F);
 }
 
 TEST(Config, SeveralBadSettings_FirstIsNamed) {
