@@ -29,8 +29,7 @@ ConfigIssue Validate(const Config& config) noexcept {
   }
   // Samples of the model lie as far apart as they are merged: nearer than that most have no match.
   if (issue.field == nullptr && config.registration.match_radius_m < config.field.merge_radius_m) {
-    issue = {"registration.match_radius_m",
-             static_cast<double>(config.registration.match_radius_m),
+    issue = {"registration.match_radius_m", static_cast<double>(config.registration.match_radius_m),
              static_cast<double>(config.field.merge_radius_m), 1.0};
   }
   return issue;
