@@ -4,10 +4,10 @@ import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { after, before, test } from "node:test";
+import { before, test } from "node:test";
 import { decode, service, writerOf } from "./messages.js";
 import { Peer } from "./peer.js";
-import { ddsType, domain, file, ownBin, patience, run, samplesOf, sleep, until } from "./program.js";
+import { atEnd, ddsType, domain, file, ownBin, patience, run, samplesOf, sleep, until } from "./program.js";
 
 const kSize = { width: 320, height: 180 };
 const definition = service(new URL("../../platform/linux/dds/ros2/disflow_msgs/srv/ChooseObject.srv", import.meta.url));
@@ -35,7 +35,7 @@ before(async () => {
   );
   await samplesOf(peer, odometry, 3);
 });
-after(async () => {
+atEnd(async () => {
   child.kill("SIGTERM");
   const { status, said } = await child.ended;
   await peer.stop();

@@ -3,12 +3,12 @@
 // Usage: node depth_faults_test.js BIN_FOLDER
 import assert from "node:assert/strict";
 import { join } from "node:path";
-import { after, before, test } from "node:test";
+import { before, test } from "node:test";
 import { rows } from "./frames.js";
 import { decode, graphEntry, writerOf } from "./messages.js";
 import { Peer } from "./peer.js";
 import { headerOf, Player, repeat } from "./player.js";
-import { domain, file, ownBin, run, samplesOf, sleep, until } from "./program.js";
+import { atEnd, domain, file, ownBin, run, samplesOf, sleep, until } from "./program.js";
 import { trajectory } from "./trajectory.js";
 
 const camera = { width: 80, height: 60, fx: 80, fy: 80, cx: 40, cy: 30 };
@@ -18,7 +18,7 @@ const tf = writerOf("tf2_msgs/TFMessage");
 const stamps = Array.from({ length: 40 }, (_, i) => 1789012345000000000n + BigInt(i) * 33333333n);
 let peer;
 before(async () => (peer = await Peer.start(join(ownBin, "ros2_peer"), domain)));
-after(() => peer.stop());
+atEnd(() => peer.stop());
 
 /** A ball in front of a wall; no two images of it are the same. */
 function ball(i) {

@@ -4,13 +4,13 @@
 import assert from "node:assert/strict";
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { after, before, test } from "node:test";
+import { before, test } from "node:test";
 import { metres, packed, packedMillimetres, raw } from "./encodings.js";
 import { millimetres, png, quantised, readFrames, stampLines, writeRecording } from "./frames.js";
 import { decode } from "./messages.js";
 import { Peer } from "./peer.js";
 import { Player, stampOf } from "./player.js";
-import { domain, file, finished, ownBin, run } from "./program.js";
+import { atEnd, domain, file, finished, ownBin, run } from "./program.js";
 import { stampNs, trajectory } from "./trajectory.js";
 
 const kFrames = 30;
@@ -27,7 +27,7 @@ before(async () => {
   frames = readFrames(file("simulated"), kFrames);
   peer = await Peer.start(join(ownBin, "ros2_peer"), domain);
 });
-after(() => peer.stop());
+atEnd(() => peer.stop());
 
 const sinceEpoch = Array.from({ length: kFrames }, (_, i) => 1789012345678901234n + BigInt(i) * 33333333n);
 /** Those that replay: gives a folder of PNG. */

@@ -4,10 +4,10 @@
 import assert from "node:assert/strict";
 import { writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { after, before, test } from "node:test";
+import { before, test } from "node:test";
 import { decode, serviceOf, writerOf } from "./messages.js";
 import { Peer } from "./peer.js";
-import { ddsType, domain, file, ownBin, patience, run, samplesOf, sleep, until } from "./program.js";
+import { atEnd, ddsType, domain, file, ownBin, patience, run, samplesOf, sleep, until } from "./program.js";
 
 const events = "rt/parameter_events";
 const status = "rt/disflow/box/status";
@@ -34,7 +34,7 @@ before(async () => {
   );
   await samplesOf(peer, status, 3);
 });
-after(async () => {
+atEnd(async () => {
   child.kill("SIGTERM");
   const { status: exit, said } = await child.ended;
   await peer.stop();

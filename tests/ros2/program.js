@@ -22,14 +22,21 @@ export const domain = 20 + (process.pid % 80);
 const folder = mkdtempSync(join(tmpdir(), "disflow-ros2-"));
 export const file = (name) => join(folder, name);
 const children = [];
+const ends = [];
+/** What a test file does at its end. Not by after(): hooks run in the order of their making, and what is killed below came first. */
+export const atEnd = (work) => ends.push(work);
 /** Ends with the tests, also with those that failed. */
 export function owned(child) {
   children.push(child);
   return child;
 }
-after(() => {
-  for (const child of children) child.kill("SIGKILL");
-  rmSync(folder, { recursive: true });
+after(async () => {
+  try {
+    for (const work of ends) await work();
+  } finally {
+    for (const child of children) child.kill("SIGKILL");
+    rmSync(folder, { recursive: true });
+  }
 });
 
 export function run(...options) {
@@ -38,7 +45,9 @@ export function run(...options) {
   let said = "";
   child.stderr.on("data", (data) => (said += data));
   child.said = () => said;
-  child.ended = new Promise((resolve) => child.once("exit", (status) => resolve({ status, said })));
+  child.ended = new Promise((resolve) =>
+    child.once("exit", (status, signal) => resolve({ status, said: signal ? `ended by ${signal}; it said: ${said}` : said })),
+  );
   return child;
 }
 
