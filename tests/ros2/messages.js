@@ -46,12 +46,13 @@ function definitionsOf(message) {
 export const readerOf = (message) => new MessageReader(definitionsOf(message));
 export const writerOf = (message) => new MessageWriter(definitionsOf(message));
 
-/** The samples of a file that the peer wrote. */
+/** The samples of a file that the peer writes; one that is not whole yet is left out. */
 export function samples(path) {
   const bytes = readFileSync(path);
   const list = [];
   for (let at = 0; at + 4 <= bytes.length; ) {
     const size = bytes.readUInt32LE(at);
+    if (at + 4 + size > bytes.length) break;
     list.push(Uint8Array.from(bytes.subarray(at + 4, at + 4 + size)));
     at += 4 + size;
   }
