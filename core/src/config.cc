@@ -19,19 +19,19 @@ ConfigIssue Validate(const Config& config) noexcept {
       issue = {field.name, static_cast<double>(field.value), field.min, field.max};
     }
   });
-  if (issue.field == nullptr && config.segmenter.max_range_m <= config.segmenter.min_range_m) {
-    issue = {"segmenter.max_range_m", static_cast<double>(config.segmenter.max_range_m),
-             static_cast<double>(config.segmenter.min_range_m), 100.0};
-  }
-  if (issue.field == nullptr && config.sampler.max_block_px < config.sampler.min_block_px) {
-    issue = {"sampler.max_block_px", static_cast<double>(config.sampler.max_block_px),
-             static_cast<double>(config.sampler.min_block_px), 64.0};
-  }
+  const auto require = [&issue](bool fits, const ConfigIssue& conflict) {
+    if (issue.field == nullptr && !fits) issue = conflict;
+  };
+  require(config.segmenter.max_range_m > config.segmenter.min_range_m,
+          {"segmenter.max_range_m", static_cast<double>(config.segmenter.max_range_m),
+           static_cast<double>(config.segmenter.min_range_m), 100.0});
+  require(config.sampler.max_block_px >= config.sampler.min_block_px,
+          {"sampler.max_block_px", static_cast<double>(config.sampler.max_block_px),
+           static_cast<double>(config.sampler.min_block_px), 64.0});
   // Samples of the model lie as far apart as they are merged: nearer than that most have no match.
-  if (issue.field == nullptr && config.registration.match_radius_m < config.field.merge_radius_m) {
-    issue = {"registration.match_radius_m", static_cast<double>(config.registration.match_radius_m),
-             static_cast<double>(config.field.merge_radius_m), 1.0};
-  }
+  require(config.registration.match_radius_m >= config.field.merge_radius_m,
+          {"registration.match_radius_m", static_cast<double>(config.registration.match_radius_m),
+           static_cast<double>(config.field.merge_radius_m), 1.0});
   return issue;
 }
 

@@ -2,6 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "child_process.h"
 #include "estimate_csv.h"
@@ -21,11 +24,15 @@ namespace fs = std::filesystem;
 struct Recording {
   const char* name;
   const char* folder;
-  const char* mask;            ///< Or "none": one pixel on the object is given; or "room": all is.
+  const char* mask;
   std::size_t repeated;        ///< Images that are the one before once more: predicted.
   std::size_t least_measured;  ///< Of the other frames, those whose status is "ok".
   double most_add_m;           ///< Mean ADD over all frames.
+  std::span<const char* const> options = {};
 };
+
+constexpr const char* kOnePixel[] = {"--seed", "505,340"};
+constexpr const char* kAsARoom[] = {"--profile", "dense", "--config", DISFLOW_ROOM_SETTINGS};
 
 constexpr std::size_t kFrames = 99;
 constexpr Recording kRecordings[] = {
@@ -33,10 +40,10 @@ constexpr Recording kRecordings[] = {
     {"DragonSloppyMask", "realsense_dragon", "sloppy", 6, 92, 0.0018},
     {"MovedDragonGivenMask", "realsense_dragon_moved", "gt", 0, 97, 0.0025},
     {"MovedDragonSloppyMask", "realsense_dragon_moved", "sloppy", 0, 85, 0.0040},
-    {"DragonOnePixel", "realsense_dragon", "none", 6, 93, 0.0025},
-    {"MovedDragonOnePixel", "realsense_dragon_moved", "none", 0, 95, 0.0030},
+    {"DragonOnePixel", "realsense_dragon", "none", 6, 93, 0.0025, kOnePixel},
+    {"MovedDragonOnePixel", "realsense_dragon_moved", "none", 0, 95, 0.0030, kOnePixel},
     // The figure stands still on its desk, so that the camera's motion among all of it is its own.
-    {"DeskAsARoom", "realsense_dragon", "room", 6, 92, 0.0020},
+    {"DeskAsARoom", "realsense_dragon", "none", 6, 92, 0.0020, kAsARoom},
 };
 
 void PrintTo(const Recording& recording, std::ostream* stream) { *stream << recording.name; }
@@ -47,14 +54,10 @@ TEST_P(RecordedObject, IsMeasuredInSoManyFramesAndSoWell) {
   const Recording& recording = GetParam();
   const fs::path folder = TestData(recording.folder);
   DISFLOW_SKIP_WITHOUT(folder);
-  const std::string mask = recording.mask;
-  const std::string set = mask == "room" ? "none" : mask;
-  std::vector<std::string> words{"--sensor", "replay:" + folder.string() + "?mask=" + set, "--csv",
+  std::vector<std::string> words{"--sensor",
+                                 "replay:" + folder.string() + "?mask=" + recording.mask, "--csv",
                                  Path("run.csv"), "--headless"};
-  if (mask == "none") words.insert(words.end(), {"--seed", "505,340"});
-  if (mask == "room") {
-    words.insert(words.end(), {"--profile", "dense", "--config", DISFLOW_ROOM_SETTINGS});
-  }
+  words.insert(words.end(), recording.options.begin(), recording.options.end());
   const Outcome tracked = RunTrack(words, scratch());
   ASSERT_EQ(tracked.exit_status, 0) << tracked.err;
   const std::vector<apps::EstimateRow> rows = apps::LoadEstimates(Path("run.csv"), kFrames).rows;

@@ -31,8 +31,8 @@ struct Stretch {
   double most_distance_m;  ///< In any frame.
   double most_angle_deg;
   int most_jumps;
-  int repeated;        ///< Images that are the one before once more.
-  bool small = false;  ///< In profile edge, whose pools are a twelfth of dense's.
+  int repeated;       ///< Images that are the one before once more.
+  bool edge = false;  ///< In profile edge, whose pools are a twelfth of dense's.
 };
 
 /// What room.toml says of profile edge.
@@ -92,12 +92,12 @@ TEST_P(RoomTracking, CameraMotionThroughAStaticRoom_MatchesTheGivenPosesAndTheRo
   const fs::path room = TestData(stretch.folder);
   DISFLOW_SKIP_WITHOUT(room);
   std::vector<std::string> words{"--sensor",  "replay:" + room.string() + "?mask=none&fps=30",
-                                 "--profile", stretch.small ? "edge" : "dense",
+                                 "--profile", stretch.edge ? "edge" : "dense",
                                  "--config",  DISFLOW_ROOM_SETTINGS,
                                  "--csv",     Path("room.csv"),
                                  "--mesh",    Path("room.ply"),
                                  "--headless"};
-  if (stretch.small) words.insert(words.end(), std::begin(kTwiceAsLarge), std::end(kTwiceAsLarge));
+  if (stretch.edge) words.insert(words.end(), std::begin(kTwiceAsLarge), std::end(kTwiceAsLarge));
   const Outcome outcome = RunTrack(words, scratch());
   ASSERT_EQ(outcome.exit_status, 0) << outcome.err;
   const std::vector<apps::EstimateRow> rows = apps::LoadEstimates(Path("room.csv"), kFrames).rows;
