@@ -14,8 +14,8 @@ _SKIPPED = 77
 _BOM, _BUILD, _VERSION, *_PROGRAMS = sys.argv[1:]
 
 # Source packages of headers that others include and of which nothing is linked: those of the kernel's interface, and what
-# libwebsockets.h and the C library declare.
-_DECLARATIONS_ONLY = {"linux", "openssl", "libcap2", "libxcrypt"}
+# libwebsockets.h and the C library declare. C++'s own library asks whether oneTBB is there: for clang that includes it.
+_DECLARATIONS_ONLY = {"linux", "openssl", "libcap2", "libxcrypt", "onetbb"}
 # The compiler's own headers are the libraries' that come with it.
 _COMPILER = re.compile(r"(gcc|llvm-toolchain)-[0-9]+")
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <functional>
 #include <memory>
+#include <numbers>
 #include <vector>
 
 #include "disflow/host/simulated_shapes.h"
@@ -23,6 +24,8 @@ struct TrackedFrame {
   Transform<Camera, Object, double> T_claimed;  ///< Of the simulated object's own frame.
   double off_m = 0.0;
   double off_deg = 0.0;
+  /// From the nearest pose at which the object looks as at the true one: boxes do when turned over.
+  double off_from_alike_deg = 0.0;
 };
 
 /// A simulated sequence and the tracker that follows it. The object frame is tied to the true one
@@ -76,11 +79,12 @@ class TrackedSequence {
 
   /// Most frames in a row that were called "tracking" with a pose off by more than 2 cm or 10
   /// degrees.
-  [[nodiscard]] int LongestLie() const {
+  /// @param turn_deg Which turn counts.
+  [[nodiscard]] int LongestLie(double TrackedFrame::*turn_deg = &TrackedFrame::off_deg) const {
     int longest = 0;
     int lie = 0;
     for (const TrackedFrame& frame : frames_) {
-      const bool off = frame.off_m > 0.02 || frame.off_deg > 10.0;
+      const bool off = frame.off_m > 0.02 || frame.*turn_deg > 10.0;
       lie = off && frame.estimate.state == TrackingState::kTracking ? lie + 1 : 0;
       longest = std::max(longest, lie);
     }
@@ -104,8 +108,20 @@ class TrackedSequence {
     }
     result.T_claimed = said * tie_;
     result.off_m = (result.T_claimed.translation() - truth.translation()).norm();
-    const double off_rad = TurnBetween(truth.rotation(), result.T_claimed.rotation()).norm();
-    result.off_deg = off_rad * 180.0 / 3.14159265358979;
+    const auto turn_deg = [&](const Mat<double, 3, 3>& rotation) {
+      return TurnBetween(rotation, result.T_claimed.rotation()).norm() * 180.0 / std::numbers::pi;
+    };
+    result.off_deg = turn_deg(truth.rotation());
+    result.off_from_alike_deg = result.off_deg;
+    if (simulation_.options().object == host::ObjectKind::kBox) {
+      for (int axis = 0; axis < 3; ++axis) {
+        host::Vec3d half_turn = host::Vec3d::Constant(-1.0);
+        half_turn[axis] = 1.0;
+        result.off_from_alike_deg =
+            std::min(result.off_from_alike_deg,
+                     turn_deg(Mat<double, 3, 3>(truth.rotation() * half_turn.asDiagonal())));
+      }
+    }
     frames_.push_back(result);
   }
 
