@@ -62,6 +62,7 @@ struct FieldConfig {
   float normal_noise = 0.1F;
   float merge_radius_m = 0.004F;
   float overlap_m = 0.006F;
+  int fit_to_object = 1;
   float crease_cos = 0.7F;
   float unknown_curvature_per_m = 20.0F;
   float reject_floor_m = 0.004F;

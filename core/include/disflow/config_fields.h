@@ -38,7 +38,8 @@ constexpr void VisitFields(ConfigType& config, Visitor&& visitor) {
         "neighbouring pixels whose depths differ by more than this share of the depth belong to "
         "different surfaces; under a mask in coarse images more, as steep surface has it");
   field("segmenter.model_margin_m", seg.model_margin_m, 0.0, 1.0, "m",
-        "without a mask, pixels farther than this from the predicted model are not the object");
+        "without a mask, pixels farther than this from the predicted model, or than 0.3 times half "
+        "its diagonal if that is more, are not the object");
   field("segmenter.explained_m", seg.explained_m, 1e-4, 1.0, "m",
         "pixels this close to the predicted model's surface are taken for the object");
   field("segmenter.free_margin_m", seg.free_margin_m, 0.0, 10.0, "m",
@@ -108,6 +109,9 @@ constexpr void VisitFields(ConfigType& config, Visitor&& visitor) {
         "observations this close to a sample are averaged into it");
   fixed("field.overlap_m", fld.overlap_m, 0.0, 0.5, "m",
         "neighbouring cells' samples this close to the border are trained on too");
+  fixed("field.fit_to_object", fld.fit_to_object, 0, 1, "0/1",
+        "1 = where an object's first view is so large that its surface would not fit into the "
+        "profile's local GPs, cell_size_m, merge_radius_m and overlap_m grow until it does");
   fixed("field.crease_cos", fld.crease_cos, 0.0, 0.99, "1",
         "normals whose cosine is smaller belong to different sides of a crease");
   fixed("field.unknown_curvature_per_m", fld.unknown_curvature_per_m, 0.0, 1000.0, "1/m",

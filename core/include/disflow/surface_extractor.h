@@ -43,9 +43,11 @@ class TriangleSink {
 
 struct SurfaceOptions {
   /// Edge of a sampling cube at most; the octree's cells are divided evenly. Not finer than a
-  /// cell's sixteenth.
+  /// cell's sixteenth; a field that is coarser than set (FieldConfig::fit_to_object) is drawn no
+  /// finer than that.
   float resolution_m = 0.0025F;
-  /// Surface farther than this (and than one octree cell) from every observed sample is left open.
+  /// Surface farther than this (and than one octree cell) from every observed sample is left open;
+  /// as much farther as the field is coarser than set.
   float support_radius_m = 0.008F;
   /// Samples of the model that were observed less often are left out.
   int min_observations = 1;

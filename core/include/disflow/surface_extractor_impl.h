@@ -30,13 +30,14 @@ class SurfaceExtractor {
         variance_(field, workspace.gp),
         steps_(StepsPerCell(field, options)),
         step_m_(field.config().cell_size_m / static_cast<float>(steps_)),
-        support_m_(std::fmin(options.support_radius_m, field.config().cell_size_m)) {}
+        support_m_(std::fmin(field.coarseness() * options.support_radius_m,
+                             field.config().cell_size_m)) {}
 
   [[nodiscard]] static bool IsValid(const DistanceField<Limits>& field,
                                     const SurfaceOptions& options) noexcept {
     // Written so that NaN is refused too.
     return options.resolution_m * static_cast<float>(kMaxStepsPerCell) >=
-               field.config().cell_size_m * (1.0F - kRounding) &&
+               field.config().cell_size_m / field.coarseness() * (1.0F - kRounding) &&
            options.resolution_m < kLargest_m && options.support_radius_m > 0.0F &&
            options.support_radius_m < kLargest_m;
   }

@@ -126,6 +126,8 @@ class Tracker {
                                StageStopwatch& stopwatch, bool doubtful) noexcept;
   void StartAt(StampNs stamp_ns, const PoseObjectFromCamera& T_oc, float variance) noexcept;
   void StartObject(const DepthFrame& frame) noexcept;
+  [[nodiscard]] bool IsRoom(const DepthFrame& frame) const noexcept;
+  void StartField(const DepthFrame& frame) noexcept;
   [[nodiscard]] Aligned Register(const DepthFrame& frame, Estimate& estimate) noexcept;
   [[nodiscard]] Status Conclude(const DepthFrame& frame, Status observed, const Aligned& aligned,
                                 Estimate& estimate) noexcept;

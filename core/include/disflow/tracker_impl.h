@@ -81,6 +81,7 @@ Status Tracker<Limits>::Fuse(const DepthFrame& frame, const PoseObjectFromCamera
   if (started_) {
     MoveTo(frame.stamp_ns, T_oc);
   } else if (status == Status::kOk) {
+    StartField(frame);
     StartAt(frame.stamp_ns, T_oc, kKnownPoseVariance);
   }
   if (status == Status::kOk) {
@@ -233,6 +234,7 @@ void Tracker<Limits>::StartObject(const DepthFrame& frame) noexcept {
   Vec3 centroid = Vec3::Zero();
   for (const SurfaceSample& sample : samples_) centroid += sample.position_m;
   centroid /= static_cast<float>(samples_.size());
+  StartField(frame);
   // The first pose is exact by definition of the object frame.
   StartAt(frame.stamp_ns, PoseObjectFromCamera(Mat3::Identity(), Vec3(-centroid)),
           kDefinedPoseVariance);

@@ -18,10 +18,30 @@ bool Tracker<Limits>::IsForeign(const Vec3& x_o) const noexcept {
   return seen_.IsFree(x_o, config_.segmenter.free_margin_m);
 }
 
+/// All that is seen is the object: it is around the camera, and no body of which a part is seen.
+template <CapacityProfile Limits>
+bool Tracker<Limits>::IsRoom(const DepthFrame& frame) const noexcept {
+  return !frame.mask.given() && config_.segmenter.grow_region == 0;
+}
+
+/// As coarse as the object in its first view asks for.
+template <CapacityProfile Limits>
+void Tracker<Limits>::StartField(const DepthFrame& frame) noexcept {
+  float squared_depths_m2 = 0.0F;
+  for (const SurfaceSample& sample : samples_) {
+    squared_depths_m2 += sample.position_m.z() * sample.position_m.z();
+  }
+  const float pixel_m2 = squared_depths_m2 / static_cast<float>(samples_.size()) /
+                         (frame.camera.fx_px * frame.camera.fy_px);
+  const float seen_m2 = static_cast<float>(object_mask_.count()) * pixel_m2;
+  const float coarseness =
+      IsRoom(frame) ? 1.0F : CoarsenessFor(seen_m2, Limits::kMaxClusters, config_);
+  field_.Start(config_.field, coarseness);
+}
+
 template <CapacityProfile Limits>
 void Tracker<Limits>::RememberView(const DepthFrame& frame) noexcept {
-  const bool everything = !frame.mask.given() && config_.segmenter.grow_region == 0;
-  if (everything || config_.segmenter.free_margin_m == 0.0F) return;
+  if (IsRoom(frame) || config_.segmenter.free_margin_m == 0.0F) return;
   constexpr float kFarthest_m = 60.0F;
   seen_.Add(DepthReader(frame.depth, config_.segmenter.min_range_m, kFarthest_m), frame.camera,
             T_oc_, object_mask_.box());

@@ -35,8 +35,10 @@ class TrackedSequence {
   /// What happens to an image before the tracker gets it.
   enum class Fate : std::uint8_t { kSeen, kDropped, kBlank };
 
-  explicit TrackedSequence(const host::SimulationOptions& options, const Config& config = {})
-      : simulation_(options, host::MakeObjectMesh(options.object)),
+  /// @param size By how much the object is larger than its kind is drawn.
+  explicit TrackedSequence(const host::SimulationOptions& options, const Config& config = {},
+                           double size = 1.0)
+      : simulation_(options, MeshOf(options.object, size)),
         tracker_(std::make_unique<EdgeTracker>(config)),
         blank_(static_cast<std::size_t>(options.width_px) *
                    static_cast<std::size_t>(options.height_px),
@@ -92,6 +94,12 @@ class TrackedSequence {
   }
 
  private:
+  [[nodiscard]] static host::TriangleMesh MeshOf(host::ObjectKind object, double size) {
+    host::TriangleMesh mesh = host::MakeObjectMesh(object);
+    for (host::Vec3d& vertex_m : mesh.vertices) vertex_m *= size;
+    return mesh;
+  }
+
   void Process(int index, const DepthFrame& frame) {
     TrackedFrame result;
     result.index = index;

@@ -337,7 +337,7 @@ TEST_F(LaterFrame, ObjectThatLeftItsTable_TouchesNothingAnyMore) {
 TEST_F(LaterFrame, ObjectThatMovedOutOfTheMargin_IsWhatLiesWithinItAndTouchesNothing) {
   constexpr int kShift_px = 11;
   const auto reach_px =
-      static_cast<int>(config_.model_margin_m * DepthScene::kFocal_px / kObject_m);
+      static_cast<int>(0.3F * prior_.box_max_m.norm() * DepthScene::kFocal_px / kObject_m);
   ASSERT_GT(kShift_px, reach_px);
   const PixelBox moved{kObject.u_min + kShift_px, kObject.v_min, kObject.u_max + kShift_px,
                        kObject.v_max};
@@ -422,9 +422,24 @@ TEST_F(LaterFrame, Doubt_WidensTheReach) {
   EXPECT_EQ(Share(far_edge), 1.0);
 }
 
+/// A face that reaches 4 cm out of what is known of the object.
+TEST_F(LaterFrame, NewFaceOfALargeObject_IsItsOwn_OfASmallOneItIsNot) {
+  DepthScene scene(2.2F);
+  const PixelBox face{kObject.u_max, kObject.v_min, kObject.u_max + 7, kObject.v_max};
+  scene.Rectangle({kObject.u_min, kObject.v_min, face.u_max, kObject.v_max}, kObject_m);
+  ASSERT_EQ(Segment(scene), Status::kOk);
+  EXPECT_EQ(Share(face), 1.0);
+  config_.model_margin_m = 0.01F;
+  prior_.box_max_m.y() = 0.02F;
+  prior_.box_min_m.x() = prior_.box_max_m.x() - 0.04F;
+  prior_.box_min_m.y() = -0.02F;
+  ASSERT_EQ(Segment(scene), Status::kOk);
+  EXPECT_LT(Share(face), 0.5);
+}
+
 TEST_F(LaterFrame, LongerTimeBetweenImages_WidensTheReachByWhatAVelocityMayChange) {
   DepthScene scene(2.2F);
-  constexpr float kShift_m = 0.045F;
+  constexpr float kShift_m = 0.075F;
   const int shift_px = static_cast<int>(kShift_m * DepthScene::kFocal_px / kObject_m);
   scene.Rectangle(
       {kObject.u_min + shift_px, kObject.v_min, kObject.u_max + shift_px, kObject.v_max},
@@ -433,7 +448,7 @@ TEST_F(LaterFrame, LongerTimeBetweenImages_WidensTheReachByWhatAVelocityMayChang
   prior_.unseen_s = 1.0F / 30.0F;
   ASSERT_EQ(Segment(scene), Status::kOk);
   EXPECT_EQ(Share(far_edge), 0.0);
-  prior_.unseen_s = 1.0F / 15.0F;
+  prior_.unseen_s = 1.0F / 10.0F;
   ASSERT_EQ(Segment(scene), Status::kOk);
   EXPECT_EQ(Share(far_edge), 1.0);
 }

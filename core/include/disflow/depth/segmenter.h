@@ -144,6 +144,8 @@ class Segmenter {
     return votes_[static_cast<std::size_t>(component)];
   }
 
+  /// Without a mask, of half the diagonal of the model's bounds.
+  static constexpr float kMarginPerSize = 0.3F;
   /// An object that moves otherwise than predicted reaches out of the margin about it, but not as
   /// far again.
   static constexpr float kFarMargins = 2.0F;

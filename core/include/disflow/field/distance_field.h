@@ -7,6 +7,7 @@
 #include "disflow/config.h"
 #include "disflow/depth/surface_sample.h"
 #include "disflow/field/cluster_store.h"
+#include "disflow/field/field_fit.h"
 #include "disflow/field/gp_workspace.h"
 
 namespace disflow {
@@ -45,13 +46,15 @@ class DistanceField {
   using Match = FieldMatch;
   using Fusion = disflow::Fusion;
 
-  void Start(const FieldConfig& config) noexcept {
-    config_ = config;
+  /// @param coarseness By how much the field is coarser than set, see CoarsenessFor().
+  void Start(const FieldConfig& config, float coarseness = 1.0F) noexcept {
+    config_ = Coarser(config, coarseness);
+    coarseness_ = coarseness;
     hyper_ = {config.length_scale_m, config.prior_gradient_std};
     generation_ = 0.0F;
     piece_variance_m2_ = 0.0F;
     turn_free_ = false;
-    store_.Start(config.cell_size_m, config.crease_cos);
+    store_.Start(config_.cell_size_m, config_.crease_cos);
     has_bounds_ = false;
   }
 
@@ -66,7 +69,9 @@ class DistanceField {
   [[nodiscard]] float piece_variance_m2() const noexcept { return piece_variance_m2_; }
 
   [[nodiscard]] const Store& store() const noexcept { return store_; }
+  /// As it is: lengths are those that were set times coarseness().
   [[nodiscard]] const FieldConfig& config() const noexcept { return config_; }
+  [[nodiscard]] float coarseness() const noexcept { return coarseness_; }
   [[nodiscard]] bool empty() const noexcept { return store_.size() == 0; }
   [[nodiscard]] const Vec3& bounds_min_m() const noexcept { return bounds_min_m_; }
   [[nodiscard]] const Vec3& bounds_max_m() const noexcept { return bounds_max_m_; }
@@ -247,6 +252,7 @@ class DistanceField {
   Store store_;
   GpWorkspace<Limits::kMaxTrainingSamples> workspace_;
   FieldConfig config_{};
+  float coarseness_ = 1.0F;
   GpHyperparameters hyper_{};
   float generation_ = 0.0F;
   float piece_variance_m2_ = 0.0F;

@@ -31,12 +31,13 @@ class DistanceQuerier {
   using Surface = LocalSurface<Limits>;
 
   /// @param workspace Scratch memory of the caller; may lie in static memory and be reused.
-  /// @param support_radius_m Surface is taken as known up to this far from a sample.
+  /// @param support_radius_m Surface is taken as known up to this far from a sample; as much
+  ///     farther as the field is coarser than set.
   DistanceQuerier(const Field& field, Workspace& workspace, float support_radius_m) noexcept
       : field_(field),
         surface_(field),
         variance_(field, workspace),
-        support_radius_m_(support_radius_m),
+        support_radius_m_(field.coarseness() * support_radius_m),
         spacing_m_(std::fmin(field.config().merge_radius_m, 0.5F * field.config().cell_size_m)) {}
 
   /// @param x_m Any finite point, object frame.
