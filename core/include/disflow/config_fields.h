@@ -38,8 +38,7 @@ constexpr void VisitFields(ConfigType& config, Visitor&& visitor) {
         "neighbouring pixels whose depths differ by more than this share of the depth belong to "
         "different surfaces; under a mask in coarse images more, as steep surface has it");
   field("segmenter.model_margin_m", seg.model_margin_m, 0.0, 1.0, "m",
-        "without a mask, pixels farther than this from the predicted model, or than 0.3 times half "
-        "its diagonal if that is more, are not the object");
+        "without a mask, pixels farther than this from the predicted model are not the object");
   field("segmenter.explained_m", seg.explained_m, 1e-4, 1.0, "m",
         "pixels this close to the predicted model's surface are taken for the object");
   field("segmenter.free_margin_m", seg.free_margin_m, 0.0, 10.0, "m",

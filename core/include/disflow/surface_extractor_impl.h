@@ -30,8 +30,8 @@ class SurfaceExtractor {
         variance_(field, workspace.gp),
         steps_(StepsPerCell(field, options)),
         step_m_(field.config().cell_size_m / static_cast<float>(steps_)),
-        support_m_(std::fmin(field.coarseness() * options.support_radius_m,
-                             field.config().cell_size_m)) {}
+        support_m_(
+            std::fmin(field.coarseness() * options.support_radius_m, field.config().cell_size_m)) {}
 
   [[nodiscard]] static bool IsValid(const DistanceField<Limits>& field,
                                     const SurfaceOptions& options) noexcept {

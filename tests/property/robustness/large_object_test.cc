@@ -27,9 +27,9 @@ double LargestError_m(const TrackedSequence& sequence) {
 }
 
 int FramesNotMeasured(const TrackedSequence& sequence) {
-  return static_cast<int>(
-      std::count_if(sequence.frames().begin(), sequence.frames().end(),
-                    [](const TrackedFrame& frame) { return frame.estimate.status != Status::kOk; }));
+  return static_cast<int>(std::count_if(
+      sequence.frames().begin(), sequence.frames().end(),
+      [](const TrackedFrame& frame) { return frame.estimate.status != Status::kOk; }));
 }
 
 TEST(LargeObject, FitsIntoTheProfileInCoarserCells_AndNextToNothingOfItIsForgotten) {

@@ -34,8 +34,7 @@ TEST(FieldFit, CellsGrowWithTheSizeOfALargeObject) {
 TEST(FieldFit, SamplesAreNeverFartherApartThanTheyAreMatched) {
   for (const float seen_m2 : {0.1F, 1.0F, 100.0F, std::numeric_limits<float>::infinity()}) {
     const Config config;
-    const FieldConfig field =
-        Coarser(config.field, CoarsenessFor(seen_m2, kClusters, config));
+    const FieldConfig field = Coarser(config.field, CoarsenessFor(seen_m2, kClusters, config));
     EXPECT_LE(field.merge_radius_m, config.registration.match_radius_m * 1.0001F) << seen_m2;
     EXPECT_GT(field.cell_size_m, config.field.cell_size_m);
   }
@@ -65,9 +64,9 @@ int CellsOfSphere(float radius_m, float cell_m) {
   for (int i = 0; i < kPoints; ++i) {
     const double z = 1.0 - 2.0 * (i + 0.5) / kPoints;
     const double r = std::sqrt(1.0 - z * z);
-    const Vec3 x_m = radius_m * Vec3(static_cast<float>(r * std::cos(golden * i)),
-                                     static_cast<float>(r * std::sin(golden * i)),
-                                     static_cast<float>(z));
+    const Vec3 x_m =
+        radius_m * Vec3(static_cast<float>(r * std::cos(golden * i)),
+                        static_cast<float>(r * std::sin(golden * i)), static_cast<float>(z));
     const Vec3 cell = (x_m / cell_m).array().floor();
     cells.emplace(static_cast<int>(cell.x()), static_cast<int>(cell.y()),
                   static_cast<int>(cell.z()));

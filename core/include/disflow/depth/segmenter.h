@@ -63,8 +63,9 @@ class Segmenter {
 
   /// How surfaces are looked for.
   struct Manner {
-    float margins = 1.0F;  ///< So many margins about the predicted model.
-    bool cut = false;      ///< Surfaces end where they fold towards the camera.
+    float margins = 1.0F;     ///< So many margins about the predicted model.
+    bool cut = false;         ///< Surfaces end where they fold towards the camera.
+    bool whole_face = false;  ///< As far as a whole face of the object may reach out of the model.
   };
 
   /// Cuts the image into surfaces and chooses among them.
@@ -144,8 +145,8 @@ class Segmenter {
     return votes_[static_cast<std::size_t>(component)];
   }
 
-  /// Without a mask, of half the diagonal of the model's bounds.
-  static constexpr float kMarginPerSize = 0.3F;
+  /// What may come into view at once, of half the diagonal of the model's bounds.
+  static constexpr float kFacePerSize = 0.6F;
   /// An object that moves otherwise than predicted reaches out of the margin about it, but not as
   /// far again.
   static constexpr float kFarMargins = 2.0F;

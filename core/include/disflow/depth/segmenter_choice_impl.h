@@ -45,10 +45,10 @@ std::uint32_t Segmenter<Limits>::LookAround(const DepthFrame& frame, const Segme
   if (!prior.known || !prior.contact.touches) {
     if (!goes_on({})) return draw();
     if (prior.known) {
-      // As it moves it may have reached out of the margin, no more. Drawn now, since looking again
-      // forgets what was seen.
+      // As it moves it may have reached out of the margin, or shows a new face, no more. Drawn now,
+      // since looking again forgets what was seen.
       const std::uint32_t dropped = draw();
-      if (!goes_on({.margins = far})) return dropped;
+      if (!goes_on({.margins = far, .whole_face = true})) return dropped;
     }
   }
   contact_.touches = goes_on({.margins = far, .cut = true});

@@ -166,17 +166,15 @@ void Segmenter<Limits>::Connect(const DepthFrame& frame, const SegmenterConfig& 
 template <class Limits>
 ModelGate Segmenter<Limits>::GateOf(const DepthFrame& frame, const SegmenterConfig& config,
                                     const ModelPrior& prior) const noexcept {
-  // Of a body that was seen from few sides nobody knows how deep it is, likely in proportion to what
-  // was seen: so much may come into view at once. A mask says what belongs to it, and of an object
-  // that touches others little else is taken than what is known.
-  const bool free = !frame.mask.given() && !manner_.cut;
-  const float size_m = 0.5F * (prior.box_max_m - prior.box_min_m).norm();
-  const float margin_m =
-      free ? std::max(config.model_margin_m, kMarginPerSize * size_m) : config.model_margin_m;
   const float factor = frame.mask.given() ? kMaskMarginFactor : manner_.margins;
   const float off_m = std::min(config.velocity_change_mps * prior.unseen_s, config.lost_margin_m);
-  if (prior.doubtful) return {frame.camera, prior, factor * margin_m + off_m};
-  return {frame.camera, prior, factor * std::max(margin_m, off_m)};
+  // Of a body that was seen from few sides nobody knows how deep it is, likely in proportion to
+  // what was seen: so much may come into view at once.
+  const float size_m = 0.5F * (prior.box_max_m - prior.box_min_m).norm();
+  const float least_m = manner_.whole_face ? kFacePerSize * size_m : 0.0F;
+  if (prior.doubtful)
+    return {frame.camera, prior, std::max(factor * config.model_margin_m, least_m) + off_m};
+  return {frame.camera, prior, std::max(factor * std::max(config.model_margin_m, off_m), least_m)};
 }
 
 template <class Limits>
