@@ -245,8 +245,10 @@ typedef void (*disflow_sample_sink)(void* context, const disflow_vertex* sample,
                                     int32_t observations);
 
 /** Streams the model's surface; see disflow::ExtractSurface().
- * @param resolution_m Edge of a sampling cube at most; 0 = 2.5 mm.
- * @param support_radius_m Surface farther than this from what was seen stays open; 0 = 8 mm.
+ * @param resolution_m Edge of a sampling cube at most; 0 = 2.5 mm. A model that is coarser than set
+ *     (field.fit_to_object) is drawn no finer than a sixteenth of its cells.
+ * @param support_radius_m Surface farther than this from what was seen stays open; 0 = 8 mm. As
+ * much farther as the model is coarser than set.
  * @param workspace At a multiple of 8 bytes, at least disflow_workspace_bytes(). */
 disflow_status disflow_surface(const disflow_tracker* tracker, float resolution_m,
                                float support_radius_m, void* workspace, size_t workspace_bytes,
@@ -266,7 +268,8 @@ typedef struct disflow_distance {
 
 /** Distances of points to the model's surface.
  * @param points_m Three numbers per point, object frame.
- * @param support_radius_m Surface is taken as known up to this far from a sample; 0 = 8 mm.
+ * @param support_radius_m Surface is taken as known up to this far from a sample; 0 = 8 mm. As much
+ *     farther as the model is coarser than set.
  * @param workspace As for disflow_surface().
  * @param distances One per point, always written.
  * @return DISFLOW_NOT_INITIALISED if there is no model. */

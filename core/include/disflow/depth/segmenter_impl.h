@@ -170,11 +170,11 @@ ModelGate Segmenter<Limits>::GateOf(const DepthFrame& frame, const SegmenterConf
   const float off_m = std::min(config.velocity_change_mps * prior.unseen_s, config.lost_margin_m);
   // Of a body that was seen from few sides nobody knows how deep it is, likely in proportion to
   // what was seen: so much may come into view at once.
-  const float size_m = 0.5F * (prior.box_max_m - prior.box_min_m).norm();
-  const float least_m = manner_.whole_face ? kFacePerSize * size_m : 0.0F;
-  if (prior.doubtful)
-    return {frame.camera, prior, std::max(factor * config.model_margin_m, least_m) + off_m};
-  return {frame.camera, prior, std::max(factor * std::max(config.model_margin_m, off_m), least_m)};
+  const float half_diagonal_m = 0.5F * (prior.box_max_m - prior.box_min_m).norm();
+  const float face_m = manner_.whole_face ? kFacePerSize * half_diagonal_m : 0.0F;
+  const float margin_m = std::max(factor * config.model_margin_m, face_m);
+  if (prior.doubtful) return {frame.camera, prior, margin_m + off_m};
+  return {frame.camera, prior, std::max(margin_m, factor * off_m)};
 }
 
 template <class Limits>
