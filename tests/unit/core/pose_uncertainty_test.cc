@@ -51,6 +51,7 @@ TEST(PoseUncertainty, ExactGradients_GiveTheInverseOfTheInformation) {
   const PoseUncertainty uncertainty = FindPoseUncertainty(information, 0.0F);
   ASSERT_TRUE(uncertainty.solved);
   EXPECT_TRUE(uncertainty.IsComplete());
+  EXPECT_FALSE(uncertainty.MayShift());
   EXPECT_LT((information.total * uncertainty.covariance - Mat6::Identity()).norm(), 0.05F);
 }
 
@@ -67,6 +68,7 @@ TEST(PoseUncertainty, TurnOfACan_IsUnobservedThoughGradientsSeemToTellIt) {
   EXPECT_NEAR(uncertainty.unobserved(5, 5), 9.0F, 0.5F);
   EXPECT_LT((uncertainty.unobserved.topLeftCorner<3, 3>().norm()), 0.01F);
   EXPECT_TRUE(uncertainty.free_turn.isApprox(uncertainty.unobserved));
+  EXPECT_FALSE(uncertainty.MayShift());
   // What is observed stays known.
   for (int i = 0; i < 3; ++i) EXPECT_LT(Std(uncertainty.covariance, i), 3e-4F) << i;
   for (int i = 3; i < 5; ++i) EXPECT_LT(Std(uncertainty.covariance, i), 5e-3F) << i;
@@ -203,6 +205,7 @@ TEST(PoseUncertainty, ShiftOfAPlane_IsNoTurnAboutAnAxis) {
   // Of all that is unobserved only the turn within the plane is one.
   EXPECT_LT((uncertainty.free_turn.topLeftCorner<3, 3>().norm()), 0.1F);
   EXPECT_LT(uncertainty.free_turn.diagonal()[3] + uncertainty.free_turn.diagonal()[4], 0.1F);
+  EXPECT_TRUE(uncertainty.MayShift());
 }
 
 TEST(PoseUncertainty, NotFiniteOrEmptyInformation_IsNotSolved) {

@@ -32,8 +32,8 @@ struct PoseSearchPrior {
   /// What was searched for may be where it is predicted, or turned over: many things look nearly
   /// alike then, and boxes do.
   bool turned_over = false;
-  /// The last pose was followed, but may have slid.
-  bool contradicted = false;
+  /// The last pose was followed, but the image contradicted it, or nothing held it in its place.
+  bool may_have_slid = false;
 };
 
 /// The axes and the diagonals of a cube, both ways.

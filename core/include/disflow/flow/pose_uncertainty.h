@@ -37,6 +37,8 @@ struct PoseUncertainty {
   bool solved = false;  ///< False when the information is not finite.
 
   [[nodiscard]] bool IsComplete() const noexcept { return unobserved.isZero(0.0F); }
+  /// Whether one of the unobserved directions is more than a turn about such an axis.
+  [[nodiscard]] bool MayShift() const noexcept { return !(unobserved - free_turn).isZero(0.0F); }
 };
 
 /// Covariance from information with errors in the variables: a gradient that is off by a small
