@@ -124,7 +124,7 @@ class SlidBoard : public LostBox {
     registration_->SetObservations(samples_, no_edges_);
   }
   /// How far from its place a board that was followed 4 cm beside it is looked for.
-  [[nodiscard]] float FoundBeside_m(bool may_have_slid) const {
+  [[nodiscard]] float FoundBeside_m(bool contradicted, bool unheld) const {
     const PoseObjectFromCamera T_slid =
         PoseCameraFromObject(Mat3::Identity(), kCenter_c + Vec3(0.04F, 0.0F, 0.0F)).Inverse();
     const auto conflict = [&](const PoseObjectFromCamera& T_oc) {
@@ -139,7 +139,8 @@ class SlidBoard : public LostBox {
     const PoseSearchPrior prior{.T_predicted = T_slid,
                                 .T_previous = T_slid,
                                 .velocity_known = true,
-                                .may_have_slid = may_have_slid};
+                                .contradicted = contradicted,
+                                .unheld = unheld};
     const Search search(*registration_, *model_, edges_, config_, prior);
     return (search.Find(conflict).T_oc.Inverse().translation() - kCenter_c).norm();
   }
@@ -149,10 +150,12 @@ class SlidBoard : public LostBox {
   Shape board_ = Box(Vec3(0.08F, 0.05F, 0.004F), 0.0F);
 };
 
-TEST_F(SlidBoard, IsLookedFor_WhenItMayHaveSlid) {
-  EXPECT_GT(FoundBeside_m(false), 0.035F);
-  EXPECT_LT(FoundBeside_m(true), 0.005F);
+TEST_F(SlidBoard, IsLookedFor_WhenItsModelClaimsWhatIsNotThere) {
+  EXPECT_GT(FoundBeside_m(false, false), 0.035F);
+  EXPECT_LT(FoundBeside_m(true, false), 0.005F);
 }
+
+TEST_F(SlidBoard, IsLookedFor_WhenNothingHeldIt) { EXPECT_LT(FoundBeside_m(false, true), 0.005F); }
 
 }  // namespace
 }  // namespace disflow::testing

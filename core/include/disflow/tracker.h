@@ -114,7 +114,7 @@ class Tracker {
     Mat6 unobserved_o = Mat6::Zero();  ///< The same as this frame says it, in object axes.
     Mat6 free_turn_o = Mat6::Zero();
     bool complete = true;    ///< The frame tells of all directions.
-    bool may_shift = false;  ///< Along one that it does not tell of the object may lie elsewhere.
+    bool unheld = false;     ///< Along one that it does not tell of the object may lie elsewhere.
     float outline_m = 0.0F;  ///< How far outlines are off, at the object.
   };
 
@@ -178,7 +178,7 @@ class Tracker {
   float gradient_variance_rad2_ = 0.0F;  ///< Of the model's normals, as the last frames saw it.
   Mat6 unobserved_o_ = Mat6::Zero();  ///< What the surface did not tell of its twist, object axes.
   Mat6 free_turn_o_ = Mat6::Zero();   ///< What of it is a turn about an axis of the object's own.
-  bool may_have_shifted_ = false;     ///< Nothing held the last registered pose in its place.
+  bool unheld_ = false;               ///< Nothing held the last registered pose in its place.
   FreeAxis free_axis_;
   int observed_frames_ = 0;  ///< In a row that told of all directions, up to kFramesUntilObserved.
   StampNs observed_ns_ = 0;  ///< When the surface last told the pose in all directions.

@@ -249,7 +249,7 @@ void Tracker<Limits>::StartAt(StampNs stamp_ns, const PoseObjectFromCamera& T_oc
   gradient_variance_rad2_ = 0.0F;
   unobserved_o_.setZero();
   free_turn_o_.setZero();
-  may_have_shifted_ = false;
+  unheld_ = false;
   turn_part_ = 0;
   twist_filter_.Start(config_.twist, stamp_ns, T_oc.Inverse(), registered_covariance_);
   observed_ns_ = stamp_ns;
@@ -271,7 +271,7 @@ void Tracker<Limits>::MoveTo(StampNs stamp_ns, const PoseObjectFromCamera& T_oc)
   registered_covariance_ = twist_filter_.pose_covariance();
   unobserved_o_.setZero();
   free_turn_o_.setZero();
-  may_have_shifted_ = false;
+  unheld_ = false;
   observed_ns_ = stamp_ns;
   monitor_.Update({.registered = true,
                    .score = 1.0F,

@@ -99,7 +99,8 @@ template <CapacityProfile Limits>
 PoseSearchPrior Tracker<Limits>::SearchPrior(StampNs stamp_ns) const noexcept {
   PoseSearchPrior prior{T_oc_, T_oc_previous_, frame_index_ >= kFramesUntilVelocity,
                         monitor_.Doubts(stamp_ns) ? monitor_.missed() + 1 : 0};
-  prior.may_have_slid = monitor_.contradicted() || may_have_shifted_;
+  prior.contradicted = monitor_.contradicted();
+  prior.unheld = unheld_;
   if (recognition_.pending() || recognition_.suspected()) {
     prior.T_predicted = recognition_.T_oc();
     prior.turned_over = true;
@@ -211,7 +212,7 @@ void Tracker<Limits>::Follow(StampNs stamp_ns, const Aligned& aligned,
       RememberGradientVariance(gradient_variance_rad2_, aligned.information.gradient_variance_rad2);
   unobserved_o_ = covariance.unobserved_o;
   free_turn_o_ = covariance.free_turn_o;
-  may_have_shifted_ = covariance.may_shift;
+  unheld_ = covariance.unheld;
   field_.SetTurnFree(IsTurnFree(stamp_ns));
   free_axis_.Learn(covariance.free_turn_o);
   observed_frames_ = covariance.complete ? std::min(observed_frames_ + 1, kFramesUntilObserved) : 0;
@@ -365,7 +366,7 @@ typename Tracker<Limits>::PoseCovariance Tracker<Limits>::CovarianceOf(
   result.twist_unobserved =
       RotatedCovariance(Steadied(result.unobserved_o, result.free_turn_o), R_co);
   result.complete = uncertainty.IsComplete();
-  result.may_shift = uncertainty.MayShift();
+  result.unheld = uncertainty.MayShift();
   if (!result.twist_unobserved.isZero(0.0F)) {
     result.reported += OnItsArc(unobserved_s * unobserved_s * result.twist_unobserved);
   }

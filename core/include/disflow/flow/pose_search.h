@@ -32,11 +32,15 @@ class PoseSearch {
   template <class Conflict>
   [[nodiscard]] Start Find(const Conflict& conflict) const noexcept {
     const PoseObjectFromCamera& T_predicted = prior_.T_predicted;
-    if (prior_.search == 0 && prior_.velocity_known && !prior_.may_have_slid &&
-        registration_.Score(field_, config_, T_predicted) >= config_.hypothesis_score) {
-      return {T_predicted, T_predicted, Scale(kBelievedShare, kSearchedShare), 1};
-    }
     Starts starts;
+    if (prior_.search == 0 && prior_.velocity_known && !prior_.contradicted &&
+        registration_.Score(field_, config_, T_predicted) >= config_.hypothesis_score) {
+      if (!prior_.unheld) {
+        return {T_predicted, T_predicted, Scale(kBelievedShare, kSearchedShare), 1};
+      }
+      (void)starts.push_back(Recentred(T_predicted));
+      return Best(starts, conflict);
+    }
     if (prior_.global >= 0) {
       AddGlobal(starts);
       return BestAndCentred(starts, conflict);

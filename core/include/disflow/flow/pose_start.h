@@ -32,8 +32,10 @@ struct PoseSearchPrior {
   /// What was searched for may be where it is predicted, or turned over: many things look nearly
   /// alike then, and boxes do.
   bool turned_over = false;
-  /// The last pose was followed, but the image contradicted it, or nothing held it in its place.
-  bool may_have_slid = false;
+  /// The last pose was followed, but may have slid: the image contradicted it.
+  bool contradicted = false;
+  /// The same, but nothing held it in its place along a direction.
+  bool unheld = false;
 };
 
 /// The axes and the diagonals of a cube, both ways.
