@@ -64,13 +64,14 @@ PoseObjectFromCamera HalfWay(const Vec3& center_c, const PoseObjectFromCamera& a
   return {rotation, Vec3(center_o - rotation * center_c)};
 }
 
-float ImpulsesApart(const Vec3& center_c, const PoseObjectFromCamera& T_oc,
-                    const PoseObjectFromCamera& T_predicted) noexcept {
+ImpulsesApart::ImpulsesApart(const Vec3& center_c, const PoseObjectFromCamera& T_oc,
+                             const PoseObjectFromCamera& T_predicted) noexcept {
   constexpr float kShift_m = 0.025F;
   constexpr float kTurn_rad = 0.2F;
   const Vec3 shift = T_oc * center_c - T_predicted * center_c;
   const Vec3 turn = TurnBetween(T_predicted.rotation(), T_oc.rotation());
-  return shift.squaredNorm() / (kShift_m * kShift_m) + turn.squaredNorm() / (kTurn_rad * kTurn_rad);
+  shift2 = shift.squaredNorm() / (kShift_m * kShift_m);
+  turn2 = turn.squaredNorm() / (kTurn_rad * kTurn_rad);
 }
 
 }  // namespace disflow

@@ -106,6 +106,22 @@ TEST_F(LostBox, FollowingAlone_WouldNotReachAsFar) {
   EXPECT_LT(found, kTries * 9 / 10);
 }
 
+TEST_F(LostBox, IsNotTurned_BecauseNothingHeldIt) {
+  const PoseObjectFromCamera T_turned = Off(Vec3(0.0F, 0.0F, 0.05F), Vec3::Zero());
+  const auto left_rad = [&](bool contradicted, bool unheld) {
+    const PoseSearchPrior prior{.T_predicted = T_turned,
+                                .T_previous = T_turned,
+                                .velocity_known = true,
+                                .contradicted = contradicted,
+                                .unheld = unheld};
+    const Search search(*registration_, *model_, edges_, config_, prior);
+    const Search::Start start = search.Find([](const PoseObjectFromCamera&) { return 0.0F; });
+    return TurnBetween(T_oc_.rotation(), start.T_oc.rotation()).norm();
+  };
+  EXPECT_LT(left_rad(true, false), 0.01F);
+  EXPECT_NEAR(left_rad(false, true), 0.05F, 1e-4F);
+}
+
 /// A board of which one face is seen: it slides without a sample that minds.
 class SlidBoard : public LostBox {
  protected:

@@ -35,11 +35,7 @@ class PoseSearch {
     Starts starts;
     if (prior_.search == 0 && prior_.velocity_known && !prior_.contradicted &&
         registration_.Score(field_, config_, T_predicted) >= config_.hypothesis_score) {
-      if (!prior_.unheld) {
-        return {T_predicted, T_predicted, Scale(kBelievedShare, kSearchedShare), 1};
-      }
-      (void)starts.push_back(Recentred(T_predicted));
-      return Best(starts, conflict);
+      return prior_.unheld ? Slid(conflict) : Believed();
     }
     if (prior_.global >= 0) {
       AddGlobal(starts);
@@ -72,6 +68,21 @@ class PoseSearch {
 
  private:
   using Starts = FixedVector<PoseObjectFromCamera, kMaxStarts>;
+
+  [[nodiscard]] Start Believed() const noexcept {
+    return {prior_.T_predicted, prior_.T_predicted, Scale(kBelievedShare, kSearchedShare), 1};
+  }
+
+  /// Where a face lies whose place nothing held. Only a slide is believed: of what looks much alike
+  /// at many turns, noise alone prefers another.
+  template <class Conflict>
+  [[nodiscard]] Start Slid(const Conflict& conflict) const noexcept {
+    Starts starts;
+    (void)starts.push_back(Recentred(prior_.T_predicted));
+    const Start found = Best(starts, conflict);
+    const ImpulsesApart apart = Apart(found.T_oc);
+    return apart.turn2 > apart.shift2 ? Believed() : found;
+  }
 
   /// The n-th part of all rotations.
   void AddGlobal(Starts& starts) const noexcept {
@@ -179,8 +190,13 @@ class PoseSearch {
            kEdgeShare * registration_.EdgeScore(edges_, config_, T_oc) - unlikely;
   }
 
+  [[nodiscard]] ImpulsesApart Apart(const PoseObjectFromCamera& T_oc) const noexcept {
+    return {registration_.center_c(), T_oc, prior_.T_predicted};
+  }
+
   [[nodiscard]] float Deviation(const PoseObjectFromCamera& T_oc) const noexcept {
-    return ImpulsesApart(registration_.center_c(), T_oc, prior_.T_predicted);
+    const ImpulsesApart apart = Apart(T_oc);
+    return apart.shift2 + apart.turn2;
   }
 
   [[nodiscard]] PoseObjectFromCamera Recentred(const PoseObjectFromCamera& T_oc) const noexcept {

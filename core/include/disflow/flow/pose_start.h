@@ -61,9 +61,14 @@ inline constexpr int kGlobalRotations = 72;
 [[nodiscard]] PoseObjectFromCamera HalfWay(const Vec3& center_c, const PoseObjectFromCamera& a,
                                            const PoseObjectFromCamera& b) noexcept;
 
-/// Squared distance between two poses, in units of what an impulse between two frames can do.
-/// @param center_c The point whose shift counts, camera frame.
-[[nodiscard]] float ImpulsesApart(const Vec3& center_c, const PoseObjectFromCamera& T_oc,
-                                  const PoseObjectFromCamera& T_predicted) noexcept;
+/// How far apart two poses are, in units of what an impulse between two frames can do, squared.
+struct ImpulsesApart {
+  float shift2 = 0.0F;
+  float turn2 = 0.0F;
+
+  /// @param center_c The point whose shift counts, camera frame.
+  ImpulsesApart(const Vec3& center_c, const PoseObjectFromCamera& T_oc,
+                const PoseObjectFromCamera& T_predicted) noexcept;
+};
 
 }  // namespace disflow
