@@ -168,6 +168,7 @@ typedef struct disflow_counters {
   uint32_t observations_out_of_bounds;
   uint32_t samples_refused;
   uint32_t clusters_evicted;
+  uint32_t clusters_forgotten;
   uint32_t edges_refused;
   uint32_t candidates_dropped;
 } disflow_counters;

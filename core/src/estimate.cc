@@ -124,6 +124,7 @@ void Counters::Accumulate(const Counters& other) noexcept {
   AddSaturating(observations_out_of_bounds, other.observations_out_of_bounds);
   AddSaturating(samples_refused, other.samples_refused);
   AddSaturating(clusters_evicted, other.clusters_evicted);
+  AddSaturating(clusters_forgotten, other.clusters_forgotten);
   AddSaturating(edges_refused, other.edges_refused);
   AddSaturating(candidates_dropped, other.candidates_dropped);
 }

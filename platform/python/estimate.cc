@@ -40,6 +40,7 @@ py::dict Rejected(const disflow_estimate& estimate) {
   all["observations_out_of_bounds"] = c.observations_out_of_bounds;
   all["samples_refused"] = c.samples_refused;
   all["clusters_evicted"] = c.clusters_evicted;
+  all["clusters_forgotten"] = c.clusters_forgotten;
   all["edges_refused"] = c.edges_refused;
   all["candidates_dropped"] = c.candidates_dropped;
   return all;

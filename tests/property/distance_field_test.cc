@@ -136,7 +136,8 @@ TEST(DistanceField, SurfaceThatIsLookedThrough_IsForgottenSoonerIfItWasNeverSeen
     while (!model.field->Witness(handle, false)) ++frames;
     model.field->Forget(handle, model.counters);
     EXPECT_TRUE(model.Samples().empty());
-    EXPECT_EQ(model.counters.clusters_evicted, 1U);
+    EXPECT_EQ(model.counters.clusters_forgotten, 1U);
+    EXPECT_EQ(model.counters.clusters_evicted, 0U) << "room was not wanting";
     return frames;
   };
   const int unseen = frames_until_forgotten(0);

@@ -51,6 +51,7 @@ ros::DiagnosticArray DdsStatus::Message(const FrameResult& result, std::uint32_t
   Add("frames_rejected", std::to_string(result.totals.frames_rejected));
   Add("frames_unregistered", std::to_string(result.totals.frames_unregistered));
   Add("clusters_evicted", std::to_string(result.totals.clusters_evicted));
+  Add("model_coarseness", Text(result.model_coarseness));
   Add("sensor_dropped", std::to_string(result.sensor.dropped));
   Add("results_lost", std::to_string(lost));
 

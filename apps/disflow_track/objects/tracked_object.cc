@@ -23,6 +23,7 @@ class TrackedObjectOf final : public TrackedObject {
   void DoTrack(const DepthFrame& frame, StageClock clock, FrameResult& result) noexcept override {
     (void)tracker_.Process(frame, result.estimate, clock);  // the estimate carries it
     result.totals = tracker_.totals();
+    result.model_coarseness = tracker_.field().coarseness();
   }
 
   void DoShow(const FrameResult& result, const DepthFrame* frame) override {

@@ -13,6 +13,8 @@ struct FrameResult {
   std::int64_t frame = 0;  ///< Position in the input, from 0.
   Estimate estimate;
   Counters totals;
+  /// How many times coarser than set the model is, so that the object fits into it.
+  float model_coarseness = 1.0F;
   std::int64_t total_ns = 0;   ///< Whole time in the tracker, without reading the frame.
   hal::SensorCounters sensor;  ///< So far.
 };

@@ -13,7 +13,7 @@ struct NamedCounter {
   std::uint32_t Counters::*value;
 };
 
-constexpr std::array<NamedCounter, 15> kCounters = {{
+constexpr std::array<NamedCounter, 16> kCounters = {{
     {"images repeated", &Counters::images_repeated},
     {"pixels out of range", &Counters::pixels_out_of_range},
     {"runs dropped", &Counters::runs_dropped},
@@ -27,6 +27,7 @@ constexpr std::array<NamedCounter, 15> kCounters = {{
     {"out of bounds", &Counters::observations_out_of_bounds},
     {"model samples refused", &Counters::samples_refused},
     {"clusters evicted", &Counters::clusters_evicted},
+    {"clusters forgotten", &Counters::clusters_forgotten},
     {"edges refused", &Counters::edges_refused},
     {"GP candidates dropped", &Counters::candidates_dropped},
 }};
@@ -64,6 +65,7 @@ void RunReport::Add(const FrameResult& result) noexcept {
   if (KindOf(estimate) == EstimateKind::kMeasured) ++registered_;
   total_.Add(result.total_ns);
   totals_ = result.totals;
+  model_coarseness_ = result.model_coarseness;
   sensor_ = result.sensor;
   state_ = estimate.state;
   quality_ = estimate.quality;
@@ -91,6 +93,12 @@ std::string RunReport::Format(double seconds) const {
                 quality_, restarts_, sensor_.dropped);
   text += FormatSensor(sensor_);
   text += "\n  " + FormatTimes(total_);
+  if (model_coarseness_ > 1.0F) {
+    text += Print(
+        "\n  model: %.1f times coarser than set, to hold all of so large an object "
+        "(field.fit_to_object); a larger profile holds it finer",
+        static_cast<double>(model_coarseness_));
+  }
   text += "\n  rejected:";
   const std::size_t without_counters = text.size();
   for (const NamedCounter& counter : kCounters) {

@@ -33,6 +33,7 @@ class RunReport {
   std::array<std::int64_t, 256> by_status_{};
   DurationHistogram total_;
   Counters totals_;
+  float model_coarseness_ = 1.0F;
   hal::SensorCounters sensor_;
   TrackingState state_ = TrackingState::kInitialising;
   std::uint8_t quality_ = 0;

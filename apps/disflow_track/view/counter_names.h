@@ -39,6 +39,7 @@ inline constexpr std::array<CounterName<Counters, std::uint32_t>, Counters::kCou
           &Counters::observations_out_of_bounds},
          {"model samples refused", "model_samples_refused", &Counters::samples_refused},
          {"clusters evicted", "clusters_evicted", &Counters::clusters_evicted},
+         {"clusters forgotten", "clusters_forgotten", &Counters::clusters_forgotten},
          {"edges refused", "edges_refused", &Counters::edges_refused},
          {"GP candidates dropped", "gp_candidates_dropped", &Counters::candidates_dropped}}};
 

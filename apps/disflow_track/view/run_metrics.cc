@@ -112,6 +112,9 @@ std::string RunMetrics::Text() const {
           [](const Object& o) {
             return static_cast<double>(LargestPositionStd(o.newest.estimate.pose_covariance));
           });
+  of_each("model_coarseness", "gauge",
+          "How many times coarser than set the model is, so that the object fits into it",
+          [](const Object& o) { return o.newest.model_coarseness; });
   of_each("restarts_total", "counter", "How often the object was begun anew",
           [](const Object& o) { return o.restarts; });
   of_each("results_not_seen_total", "counter", "Results that came too fast to be counted here",

@@ -46,13 +46,13 @@ struct Counters {
   std::uint32_t observations_out_of_bounds = 0;  ///< Observations outside of the mapped volume.
   /// New samples refused since their cluster is full, or no room could be made for one.
   std::uint32_t samples_refused = 0;
-  std::uint32_t clusters_evicted = 0;  ///< Clusters removed: the stalest, to make room,
-                                       ///< and those that later frames looked through.
-  std::uint32_t edges_refused = 0;     ///< Occluding-edge samples refused since the store is full.
+  std::uint32_t clusters_evicted = 0;    ///< The stalest clusters, removed to make room.
+  std::uint32_t clusters_forgotten = 0;  ///< Those that later frames looked through or never saw.
+  std::uint32_t edges_refused = 0;  ///< Occluding-edge samples refused since the store is full.
   /// Samples that a local GP could have been trained on, beyond those that were considered.
   std::uint32_t candidates_dropped = 0;
 
-  static constexpr int kCount = 19;
+  static constexpr int kCount = 20;
   /// Adds `other` to this, saturating.
   void Accumulate(const Counters& other) noexcept;
 };

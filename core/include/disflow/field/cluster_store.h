@@ -109,9 +109,9 @@ class ClusterStore {
     tree_.UpdateFacets(cluster.cell, sample.position_m, sample.normal, 1.0F, crease_cos_);
   }
 
-  /// Gives a cluster back to the pool.
-  void Remove(Handle handle, Counters& counters) noexcept {
-    ++counters.clusters_evicted;
+  /// Gives a cluster that is not believed back to the pool.
+  void Forget(Handle handle, Counters& counters) noexcept {
+    ++counters.clusters_forgotten;
     Release(handle);
   }
 

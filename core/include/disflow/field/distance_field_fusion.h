@@ -139,7 +139,7 @@ void DistanceField<Limits>::MarkDirty(const ModelSample& sample, Handle owner,
 template <class Limits>
 void DistanceField<Limits>::Forget(Handle handle, Counters& counters) noexcept {
   const Vec3 centroid_m = store_[handle].centroid_m;
-  store_.Remove(handle, counters);
+  store_.Forget(handle, counters);
   // Those around it have trained on its samples across their border.
   store_.ForEachNear(centroid_m, config_.cell_size_m,
                      [this](Handle near, const ClusterType&) { store_[near].dirtiness += 1.0F; });

@@ -59,6 +59,7 @@ void ExpectSame(const disflow_counters& c, const Counters& cpp) {
   EXPECT_EQ(c.observations_out_of_bounds, cpp.observations_out_of_bounds);
   EXPECT_EQ(c.samples_refused, cpp.samples_refused);
   EXPECT_EQ(c.clusters_evicted, cpp.clusters_evicted);
+  EXPECT_EQ(c.clusters_forgotten, cpp.clusters_forgotten);
   EXPECT_EQ(c.edges_refused, cpp.edges_refused);
   EXPECT_EQ(c.candidates_dropped, cpp.candidates_dropped);
 }

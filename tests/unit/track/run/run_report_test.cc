@@ -91,6 +91,17 @@ TEST(RunReport, EveryCounterOfRejection_IsShown) {
   EXPECT_GE(std::count(rejected.begin(), rejected.end(), '7'), Counters::kCount - 4) << rejected;
 }
 
+TEST(RunReport, CoarserModel_IsSaidOnlyIfTheObjectAskedForOne) {
+  RunReport as_set;
+  as_set.Add(Result(Status::kOk));
+  EXPECT_EQ(as_set.Format(1.0).find("coarser"), std::string::npos);
+  FrameResult result = Result(Status::kOk);
+  result.model_coarseness = 1.63F;
+  RunReport report;
+  report.Add(result);
+  EXPECT_NE(report.Format(1.0).find("1.6 times coarser than set"), std::string::npos);
+}
+
 TEST(RunReport, TroubleOfTheSensor_IsSaidOnlyIfThereWasAny) {
   FrameResult result = Result(Status::kOk);
   RunReport calm;
