@@ -47,6 +47,18 @@ class LostBox : public ::testing::Test {
                   {T_predicted, T_predicted, true, search})
         .Find([](const PoseObjectFromCamera&) { return 0.0F; });
   }
+  /// Of an object that was followed until now.
+  template <class Conflict>
+  [[nodiscard]] Search::Start FindFollowed(const PoseObjectFromCamera& T_followed,
+                                           bool contradicted, bool unheld,
+                                           const Conflict& conflict) const {
+    const PoseSearchPrior prior{.T_predicted = T_followed,
+                                .T_previous = T_followed,
+                                .velocity_known = true,
+                                .contradicted = contradicted,
+                                .unheld = unheld};
+    return Search(*registration_, *model_, edges_, config_, prior).Find(conflict);
+  }
   /// Whether what the search starts from leads to the true pose.
   [[nodiscard]] bool Finds(const PoseObjectFromCamera& T_predicted, int search) const {
     const Search::Start start = Find(T_predicted, search);
@@ -109,13 +121,8 @@ TEST_F(LostBox, FollowingAlone_WouldNotReachAsFar) {
 TEST_F(LostBox, IsNotTurned_BecauseNothingHeldIt) {
   const PoseObjectFromCamera T_turned = Off(Vec3(0.0F, 0.0F, 0.05F), Vec3::Zero());
   const auto left_rad = [&](bool contradicted, bool unheld) {
-    const PoseSearchPrior prior{.T_predicted = T_turned,
-                                .T_previous = T_turned,
-                                .velocity_known = true,
-                                .contradicted = contradicted,
-                                .unheld = unheld};
-    const Search search(*registration_, *model_, edges_, config_, prior);
-    const Search::Start start = search.Find([](const PoseObjectFromCamera&) { return 0.0F; });
+    const Search::Start start = FindFollowed(T_turned, contradicted, unheld,
+                                             [](const PoseObjectFromCamera&) { return 0.0F; });
     return TurnBetween(T_oc_.rotation(), start.T_oc.rotation()).norm();
   };
   EXPECT_LT(left_rad(true, false), 0.01F);
@@ -152,13 +159,8 @@ class SlidBoard : public LostBox {
       });
       return static_cast<float>(contradicting) / static_cast<float>(there + contradicting);
     };
-    const PoseSearchPrior prior{.T_predicted = T_slid,
-                                .T_previous = T_slid,
-                                .velocity_known = true,
-                                .contradicted = contradicted,
-                                .unheld = unheld};
-    const Search search(*registration_, *model_, edges_, config_, prior);
-    return (search.Find(conflict).T_oc.Inverse().translation() - kCenter_c).norm();
+    const Search::Start start = FindFollowed(T_slid, contradicted, unheld, conflict);
+    return (start.T_oc.Inverse().translation() - kCenter_c).norm();
   }
 
  private:
