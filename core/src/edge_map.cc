@@ -8,6 +8,25 @@
 namespace disflow {
 namespace {
 
+[[nodiscard]] bool EndsSameFace(const ModelEdge& edge, const EdgePoint& point) noexcept {
+  constexpr float kSimilarNormalCos = 0.8F;
+  return edge.normal.dot(point.normal) > kSimilarNormalCos;
+}
+
+/// Whether the face that ends at a point may be the other one that meets at the edge: it turns away
+/// by enough, and each passes near the place of the other's end. Outlines of round things that have
+/// turned by 60 degrees lie half a radius off each other's planes.
+[[nodiscard]] bool EndsOtherFace(const ModelEdge& edge, const EdgePoint& point) noexcept {
+  constexpr float kMeetingCos = 0.5F;  // 60 degrees
+  // Two deviations above what rounding is expected to be at first: rounder things have no edge.
+  constexpr float kRoundest_m = 0.009F;
+  if (edge.normal.dot(point.normal) > kMeetingCos) return false;
+  const float reach_m = MergeRadius(point, 0.5F * kRoundest_m);
+  const Vec3 apart_m = edge.position_m - point.position_m;
+  return std::abs(edge.normal.dot(apart_m)) < reach_m &&
+         std::abs(point.normal.dot(apart_m)) < reach_m;
+}
+
 /// Kalman update with the position along one unit vector.
 /// @param per_radius What rounding adds to the position seen along it, per radius.
 void Update(const Vec3& unit, const Vec3& position_m, float per_radius, float variance_m2,
@@ -31,9 +50,10 @@ void Observe(const EdgePoint& point, ModelEdge& edge) noexcept {
   const float along_ray = point.ray.dot(back);
   // The point was placed where its ray meets the face, which tells little where the two run alike.
   constexpr float kLeastFacing = 0.1F;
-  const float facing = edge.normal.dot(back);
+  const Vec3& face = EndsSameFace(edge, point) ? edge.normal : point.normal;
+  const float facing = face.dot(back);
   const float per_radius =
-      std::abs(facing) < kLeastFacing ? 0.0F : -offset * edge.normal.dot(point.outward) / facing;
+      std::abs(facing) < kLeastFacing ? 0.0F : -offset * face.dot(point.outward) / facing;
   Update(back, point.position_m, per_radius,
          point.variance_m2 + point.depth_variance_m2 * along_ray * along_ray, across, edge);
 }
@@ -63,11 +83,10 @@ ModelEdge MakeModelEdge(const EdgePoint& point, std::uint32_t frame) noexcept {
 
 bool IsSeenAs(const ModelEdge& edge, const EdgePoint& point) noexcept {
   constexpr float kMostTurnSin = 0.34F;  // 20 degrees
-  constexpr float kSimilarNormalCos = 0.8F;
   const float least_weight = point.steady ? 0.0F : kWellKnownWeight;
   return edge.weight >= least_weight &&
          std::abs(edge.direction.dot(point.outward)) < kMostTurnSin &&
-         edge.normal.dot(point.normal) > kSimilarNormalCos;
+         (EndsSameFace(edge, point) || EndsOtherFace(edge, point));
 }
 
 int FindNearestEdge(std::span<const ModelEdge> edges, const EdgePoint& point,
@@ -95,7 +114,8 @@ void MergeIntoEdge(const EdgePoint& point, std::uint32_t frame, ModelEdge& edge)
   const float gain = 1.0F / (edge.weight + 1.0F);
   const float sign = edge.direction.dot(point.direction) < 0.0F ? -1.0F : 1.0F;
   edge.direction = (edge.direction + gain * (sign * point.direction - edge.direction)).normalized();
-  edge.normal = (edge.normal + gain * (point.normal - edge.normal)).normalized();
+  if (EndsSameFace(edge, point))
+    edge.normal = (edge.normal + gain * (point.normal - edge.normal)).normalized();
   edge.weight = std::fmin(edge.weight + 1.0F, kMaxEdgeWeight);
 }
 

@@ -4,33 +4,16 @@
 #include <algorithm>
 
 #include "program/status_token.h"
+#include "run/counter_names.h"
 
 namespace disflow::apps {
 namespace {
 
-struct NamedCounter {
-  const char* name;
-  std::uint32_t Counters::*value;
-};
-
-constexpr std::array<NamedCounter, 16> kCounters = {{
-    {"images repeated", &Counters::images_repeated},
-    {"pixels out of range", &Counters::pixels_out_of_range},
-    {"runs dropped", &Counters::runs_dropped},
-    {"blocks sparse", &Counters::blocks_sparse},
-    {"grazing", &Counters::blocks_grazing},
-    {"flying", &Counters::blocks_flying},
-    {"samples dropped", &Counters::samples_dropped},
-    {"residuals unmatched", &Counters::residuals_unmatched},
-    {"truncated", &Counters::residuals_truncated},
-    {"observations rejected", &Counters::observations_rejected},
-    {"out of bounds", &Counters::observations_out_of_bounds},
-    {"model samples refused", &Counters::samples_refused},
-    {"clusters evicted", &Counters::clusters_evicted},
-    {"clusters forgotten", &Counters::clusters_forgotten},
-    {"edges refused", &Counters::edges_refused},
-    {"GP candidates dropped", &Counters::candidates_dropped},
-}};
+/// What the first lines of a report say of frames.
+[[nodiscard]] bool IsSaidOtherwise(std::uint32_t Counters::*counter) noexcept {
+  return counter == &Counters::frames || counter == &Counters::frames_rejected ||
+         counter == &Counters::frames_unregistered;
+}
 
 template <class... Values>
 std::string Print(const char* format, Values... values) {
@@ -101,11 +84,11 @@ std::string RunReport::Format(double seconds) const {
   }
   text += "\n  rejected:";
   const std::size_t without_counters = text.size();
-  for (const NamedCounter& counter : kCounters) {
-    const std::uint32_t value = totals_.*counter.value;
-    if (value == 0) continue;
+  for (const auto& counter : kTrackerCounters) {
+    const std::uint32_t value = totals_.*counter.member;
+    if (value == 0 || IsSaidOtherwise(counter.member)) continue;
     if (text.size() > without_counters) text += ",";
-    text += Print(" %s %u", counter.name, value);
+    text += Print(" %s %u", counter.words, value);
   }
   if (text.size() == without_counters) text += " nothing";
   return text;

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "disflow/geometry/covariance.h"
-#include "view/counter_names.h"
+#include "run/counter_names.h"
 
 namespace disflow::apps {
 namespace {

@@ -94,7 +94,7 @@ void Tracker<Limits>::FuseObservations(const DepthFrame& frame, Estimate& estima
   for (const EdgePoint& point : edges_) {
     const EdgePoint moved = T_oc_ * point;
     if (IsForeign(moved.position_m)) continue;
-    model_edges_.Insert(moved, config_.field.merge_radius_m, frame_index_, estimate.rejected);
+    model_edges_.Insert(moved, field_.config().merge_radius_m, frame_index_, estimate.rejected);
   }
 }
 

@@ -156,10 +156,23 @@ class Peers(unittest.TestCase):
         results = self.results(98.0, {"a": 97.0, "b": 99.25})
         self.assertEqual(peers.ahead(results), [("box, fast, clean", "GICP", 1.25)])
         text = peers.page(results, [11], 150, datetime.date(2026, 1, 2), "busy")
+        self.assertIn("| clean | 98.00 | 99.25 | 50.00 |", text)
         self.assertIn("|  | GICP b | **99.25** |", text)
         self.assertIn("| box, fast, clean | DisFlow | 98.00 |", text)
         self.assertIn("box, fast, clean: GICP by 1.25", text)
         self.assertIn("2026-01-02, seed 11, 150 frames each, busy.", text)
+
+    def test_things_whose_turn_cannot_be_seen_are_judged_by_their_surface(self):
+        def of(add_auc, add_s_auc):
+            return {11: dict({name: 1.0 for name in peers.SHOWN}, add_auc=add_auc, add_s_auc=add_s_auc)}
+
+        row = {peers.TRACKER: {"": of(40.0, 99.5)},
+               "GICP": {"a": of(50.0, 99.0), "b": of(45.0, 99.25)},
+               "point-to-plane": {"a": of(30.0, 99.75)}}
+        self.assertEqual(peers.ahead({"can, fast, clean": row}), [("can, fast, clean", "point-to-plane", 0.25)])
+        self.assertEqual(peers.ahead({"box, fast, clean": row}), [("box, fast, clean", "GICP", 10.0)])
+        self.assertEqual(peers.means({"can, fast, clean": row, "tube, fast, clean": row})["clean"]["GICP"], 99.25)
+        self.assertTrue(set(peers.TURNING) <= set(peers.OBJECTS))
 
     def test_page_says_that_no_peer_is_ahead(self):
         text = peers.page(self.results(99.5, {"a": 99.0}), [11], 150, datetime.date(2026, 1, 2))

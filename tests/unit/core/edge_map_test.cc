@@ -126,15 +126,29 @@ TEST_F(EdgeMapTest, OldEdge_StillFollowsWhereItIsSeen) {
   EXPECT_NEAR(Nearest(PointAt(0.0F))->position_m.y(), 0.001F, 5e-5F);
 }
 
-TEST_F(EdgeMapTest, OtherDirectionOrSide_IsAnotherEdge) {
+TEST_F(EdgeMapTest, OtherDirection_IsAnotherEdge) {
   Insert(PointAt(0.0F));
   const EdgePoint across = PointAt(Vec3(0.0F, 0.0F, 0.5F), Vec3::UnitY());
-  const EdgePoint other_side = PointAt(Vec3(0.0F, 0.0F, 0.5F), Vec3::UnitX(), Vec3::UnitY());
   EXPECT_EQ(Nearest(across), nullptr);
-  EXPECT_EQ(Nearest(other_side), nullptr);
   Insert(across);
-  Insert(other_side);
-  EXPECT_EQ(map_.size(), 3);
+  EXPECT_EQ(map_.size(), 2);
+}
+
+TEST_F(EdgeMapTest, OtherFaceThatMeetsAtTheEdge_EndsAtTheSameEdge) {
+  Insert(PointAt(0.0F));
+  const EdgePoint other_face = PointAt(Vec3(0.0F, 0.0F, 0.5F), Vec3::UnitX(), Vec3::UnitY());
+  EXPECT_NE(Nearest(other_face), nullptr);
+  Insert(other_face);
+  EXPECT_EQ(map_.size(), 1);
+}
+
+TEST_F(EdgeMapTest, FaceThatPassesTheEdge_EndsElsewhere) {
+  Insert(PointAt(0.0F));
+  // Its plane, or that of the edge's face, lies a centimetre off the other's end.
+  for (const Vec3& off_m : {Vec3(0.0F, 0.01F, 0.0F), Vec3(0.0F, 0.0F, 0.01F)}) {
+    const EdgePoint passing = PointAt(Vec3(0.0F, 0.0F, 0.5F) + off_m, Vec3::UnitX(), Vec3::UnitY());
+    EXPECT_EQ(FindNearestEdge(map_.all(), passing, 0.02F), -1);
+  }
 }
 
 TEST_F(EdgeMapTest, NearestEdge_IsTheNearestOfThoseInReach) {

@@ -94,6 +94,46 @@ TEST(EdgeRounding, EdgeSeenFromAllSides_IsWhereTheFacesWouldMeet) {
   EXPECT_GT(edge.position_m.norm(), 3e-4F) << "the outline wanders";
 }
 
+/// The same edge when the face towards -z has turned away: the outline of the face towards +y.
+EdgePoint SeenFromTheOtherFace(float radius_m, float slant_rad) {
+  EdgePoint point = Seen(radius_m, slant_rad);
+  point.normal = Vec3::UnitY();
+  // On that face, where outward . x is the block's reach.
+  point.position_m = Vec3(0.0F, 0.0F, Reach(radius_m, point.outward) / point.outward.z());
+  return point;
+}
+
+TEST(EdgeRounding, EdgeOfOneFace_IsFoundAgainAsTheOutlineOfTheOther) {
+  const ModelEdge edge = MakeModelEdge(Seen(kRadius_m, 0.1F), 1);
+  for (const float slant_rad : {0.5F, 0.9F, 1.4F}) {
+    const EdgePoint point = SeenFromTheOtherFace(kRadius_m, slant_rad);
+    EXPECT_TRUE(IsSeenAs(edge, point));
+    EXPECT_NEAR(EdgeResidualOf(point, edge, kRadius_m).distance_m, 0.0F, 2e-5F)
+        << "slant " << slant_rad << " rad";
+  }
+}
+
+TEST(EdgeRounding, OutlineOfSurfaceThatHasTurnedALittle_IsNotThatEdge) {
+  const ModelEdge edge = MakeModelEdge(Seen(kRadius_m, 0.1F), 1);
+  for (const float turn_rad : {0.8F, 0.9F, 1.0F}) {
+    EdgePoint point = Seen(kRadius_m, 0.1F);
+    point.normal = Vec3(0.0F, std::sin(turn_rad), -std::cos(turn_rad));
+    EXPECT_FALSE(IsSeenAs(edge, point)) << "round things: their outline moves over them";
+  }
+}
+
+TEST(EdgeRounding, EdgeSeenFromBothFaces_IsWhereTheyWouldMeetAndKeepsItsNormal) {
+  ModelEdge edge = MakeModelEdge(Seen(kRadius_m, 0.0F), 1);
+  std::uint32_t frame = 2;
+  for (float slant_rad = 0.05F; slant_rad < 0.7F; slant_rad += 0.05F)
+    MergeIntoEdge(Seen(kRadius_m, slant_rad), frame++, edge);
+  for (float slant_rad = 0.8F; slant_rad < 1.5F; slant_rad += 0.05F)
+    MergeIntoEdge(SeenFromTheOtherFace(kRadius_m, slant_rad), frame++, edge);
+  EXPECT_TRUE(edge.normal.isApprox(kNormal));
+  const Vec3 corner_m = edge.position_m - kRadius_m * edge.position_per_radius;
+  EXPECT_LT(corner_m.norm(), 1e-4F);
+}
+
 TEST(EdgeRounding, TwentyFramesThatErrAlike_TellNoMoreThanOne) {
   const EdgeRounding before;
   // A frame that tells the radius with a standard deviation of a millimetre.

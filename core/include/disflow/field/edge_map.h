@@ -18,7 +18,7 @@ struct ModelEdge {
   Vec3 position_m;           ///< Where the points were seen, as if the edge were sharp.
   Vec3 position_per_radius;  ///< What a radius of rounding has added to that, per its length.
   Vec3 direction;
-  Vec3 normal;                  ///< Of the surface that ends here.
+  Vec3 normal;                  ///< Of the face that ended here when it was first seen.
   std::uint32_t last_seen;      ///< Number of the frame.
   float weight;                 ///< Observations, bounded so that an edge can still move.
   Mat<float, 2, 2> covariance;  ///< Of the position along the columns of Across() [m^2].
@@ -32,8 +32,10 @@ struct ModelEdge {
 /// The edge that a first point makes.
 [[nodiscard]] ModelEdge MakeModelEdge(const EdgePoint& point, std::uint32_t frame) noexcept;
 
-/// Whether a point may show an edge: by direction, side, and how well the edge is known. Directions
-/// are compared as the image shows them: how an edge runs in depth a noisy sensor hardly sees.
+/// Whether a point may show an edge: by direction, faces, and how well the edge is known. An edge
+/// is where two faces meet, and is the outline of either when the other has turned away: what one
+/// was built with holds the other. Directions are compared as the image shows them: how an edge
+/// runs in depth a noisy sensor hardly sees.
 [[nodiscard]] bool IsSeenAs(const ModelEdge& edge, const EdgePoint& point) noexcept;
 
 /// The nearest edge that a point may show, within radius_m.

@@ -22,7 +22,7 @@ struct EdgeRounding {
 /// would meet if it were sharp, in radii. The support function of a rounded right angle: zero where
 /// a face is seen from straight ahead or edge-on, negative (towards the object) in between.
 /// @param outward Unit vector away from the object, across ray and edge.
-/// @param normal Of the face that ends at the edge.
+/// @param normal Of either of the faces that end at the edge: it is the same.
 [[nodiscard]] inline float OutlineOffset(const Vec3& outward, const Vec3& normal) noexcept {
   const float sine = std::min(1.0F, std::max(0.0F, outward.dot(normal)));
   return 1.0F - sine - std::sqrt(1.0F - sine * sine);

@@ -8,7 +8,7 @@
 #include "disflow/hal/depth_sensor.h"
 
 /// @file
-/// What counters are called: on the page, and by those who watch many machines.
+/// What counters are called: in reports, on the page, and by those who watch many machines.
 
 namespace disflow::apps {
 
