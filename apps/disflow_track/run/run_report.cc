@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "program/counter_names.h"
 #include "program/status_token.h"
-#include "run/counter_names.h"
 
 namespace disflow::apps {
 namespace {

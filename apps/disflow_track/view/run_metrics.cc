@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "disflow/geometry/covariance.h"
-#include "run/counter_names.h"
+#include "program/counter_names.h"
 
 namespace disflow::apps {
 namespace {

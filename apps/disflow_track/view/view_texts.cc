@@ -5,7 +5,7 @@
 #include <type_traits>
 
 #include "disflow/config_fields.h"
-#include "run/counter_names.h"
+#include "program/counter_names.h"
 #include "view/view_messages.h"
 
 namespace disflow::apps {

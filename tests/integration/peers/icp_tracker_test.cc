@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "disflow/config.h"
 #include "disflow/host/simulated_shapes.h"
 #include "disflow/host/simulation.h"
 
@@ -114,7 +115,9 @@ TEST(ObjectCloud, BorderOfTheMask_IsLeftOut) {
   host::Simulation simulation = BoxInMotion();
   DepthFrame frame;
   simulation.Render(0, frame);
-  // A mask of 40 x 30 pixels in the middle of the object; 36 x 26 remain.
+  // A mask of 40 x 30 pixels in the middle of the object, of which the tracker's border goes.
+  const auto border_px = static_cast<float>(Config{}.sampler.border_px);
+  ASSERT_GT(border_px, 0.0F);
   const auto pixels = static_cast<std::size_t>(frame.mask.stride_bytes * frame.mask.height_px);
   std::vector<std::uint8_t> square(pixels);
   const Vec3 middle = simulation.TruthAt(0).object.pose.translation().cast<float>();
@@ -130,10 +133,10 @@ TEST(ObjectCloud, BorderOfTheMask_IsLeftOut) {
   ASSERT_GT(cloud->size(), 50U);
   for (const pcl::PointNormal& point : *cloud) {
     const Vec2 seen = frame.camera.Project(point.getVector3fMap());
-    EXPECT_GT(seen.x(), static_cast<float>(u_begin) + 1.9F);
-    EXPECT_LT(seen.x(), static_cast<float>(u_begin) + 37.1F);
-    EXPECT_GT(seen.y(), static_cast<float>(v_begin) + 1.9F);
-    EXPECT_LT(seen.y(), static_cast<float>(v_begin) + 27.1F);
+    EXPECT_GT(seen.x(), static_cast<float>(u_begin) + border_px - 0.1F);
+    EXPECT_LT(seen.x(), static_cast<float>(u_begin) + 39.1F - border_px);
+    EXPECT_GT(seen.y(), static_cast<float>(v_begin) + border_px - 0.1F);
+    EXPECT_LT(seen.y(), static_cast<float>(v_begin) + 29.1F - border_px);
     EXPECT_LT(point.getNormalVector3fMap().dot(point.getVector3fMap()), 0.0F);
   }
 }
