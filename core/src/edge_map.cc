@@ -18,8 +18,8 @@ namespace {
 /// turned by 60 degrees lie half a radius off each other's planes.
 [[nodiscard]] bool EndsOtherFace(const ModelEdge& edge, const EdgePoint& point) noexcept {
   constexpr float kMeetingCos = 0.5F;  // 60 degrees
-  // Two deviations above what rounding is expected to be at first: rounder things have no edge.
-  constexpr float kRoundest_m = 0.009F;
+  // Two deviations above what is expected: rounder things have no edge.
+  constexpr float kRoundest_m = 3.0F * kExpectedRadius_m;
   if (edge.normal.dot(point.normal) > kMeetingCos) return false;
   const float reach_m = MergeRadius(point, 0.5F * kRoundest_m);
   const Vec3 apart_m = edge.position_m - point.position_m;

@@ -124,12 +124,17 @@ TEST(WeakAxis, FaceThatSlid_IsBackInItsPlaceInTheNextImage) {
   sequence.Run(kUntilItTurnedOn);
   int slid = 0;
   double farthest_m = 0.0;
+  double farthest_for_two_m = 0.0;
+  double before_m = 0.0;
   for (const TrackedFrame& frame : sequence.frames()) {
     slid += frame.estimate.weak.kind == WeakKind::kTranslation ? 1 : 0;
     farthest_m = std::max(farthest_m, frame.off_m);
+    farthest_for_two_m = std::max(farthest_for_two_m, std::min(before_m, frame.off_m));
+    before_m = frame.off_m;
   }
   ASSERT_GT(slid, 0);
   EXPECT_LT(farthest_m, 0.02);
+  EXPECT_LT(farthest_for_two_m, 0.012) << "in two images in a row";
 }
 
 }  // namespace

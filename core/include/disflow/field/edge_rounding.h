@@ -8,14 +8,17 @@
 
 namespace disflow {
 
+/// What is expected of a radius at first, and its standard deviation: from a sharp edge to that of
+/// a cushion everything is likely.
+inline constexpr float kExpectedRadius_m = 0.003F;
+
 /// How much the edges of an object are rounded: one radius for all of them, estimated together with
 /// the pose. What people hold has edges rounded by some millimetres, and the outline of such an
 /// edge wanders over it as the object turns, by up to 0.41 radii; a pose that takes it for a sharp
 /// edge slides as far.
 struct EdgeRounding {
-  float radius_m = 0.003F;
-  /// Of the radius. At first everything from a sharp edge to that of a cushion is likely.
-  float variance_m2 = 9e-6F;
+  float radius_m = kExpectedRadius_m;
+  float variance_m2 = kExpectedRadius_m * kExpectedRadius_m;  ///< Of the radius.
 };
 
 /// Where the outline of a rounded edge is, across ray and edge, seen from the place where the faces
