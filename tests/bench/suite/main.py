@@ -45,7 +45,9 @@ def parse(words):
     parser.add_argument("--check", action="store_true",
                         help="cost: fail if a median has grown by more than 5 %% over what docs/cost.json says; the pages stay as they are")
     parser.add_argument("--objects", action="append", metavar="FILE.obj", type=pathlib.Path, default=[],
-                        help="peers: a scanned mesh in metres, in addition; may be repeated")
+                        help="accuracy, peers: a scanned mesh in metres, in addition; may be repeated")
+    parser.add_argument("--continue", action="store_true", dest="resume",
+                        help="accuracy: of a run that was broken off, keep what the same programs have measured")
     parser.add_argument("--remark", default="", help="peers: what to say on the page of how it was measured")
     parser.add_argument("--only", action="append", metavar="TEXT", default=[],
                         help="only rows whose name contains this, may be repeated; the pages stay as they are")
@@ -53,11 +55,12 @@ def parse(words):
 
 
 def measure_accuracy(options, seeds, whole):
-    rows = [row for row in sequences.ROWS if whole or not options.only or any(text in row.name for text in options.only)]
+    every = tuple(row for file in options.objects for row in sequences.of_scanned(file.resolve())) + sequences.ROWS
+    rows = [row for row in every if whole or not options.only or any(text in row.name for text in options.only)]
     # A row that is held against another one needs it.
     wanted = {row.name for row in rows} | {row.like for row in rows}
-    rows = [row for row in sequences.ROWS if row.name in wanted]
-    programs = runs.Programs(options.bin, options.out)
+    rows = [row for row in every if row.name in wanted]
+    programs = runs.Programs(options.bin, options.out, options.resume)
     results = accuracy.measure(programs, rows, seeds)
     images = options.docs / "images" if whole else options.out / "images"
     pictures = plots.draw(programs, rows, seeds, images)

@@ -36,8 +36,10 @@ class Job:
 class Programs:
     """The programs of one build and a folder for what they write."""
 
-    def __init__(self, bin_dir, out_dir):
+    def __init__(self, bin_dir, out_dir, resume=False):
+        """@param resume Keep reports that are younger than the programs."""
         self.bin_dir = pathlib.Path(bin_dir)
+        self.resume = resume
         self.out_dir = pathlib.Path(out_dir)
         (self.out_dir / "runs").mkdir(parents=True, exist_ok=True)
 
@@ -56,8 +58,21 @@ class Programs:
             raise RuntimeError(f"{program} ended with {done.returncode}: {done.stderr.strip()}")
         return None if done.returncode else getattr(done, stream)
 
+    def _measured_before(self, report):
+        """Figures of a run that ended before this one of the suite began; None without it."""
+        programs = (self.bin_dir / name for name in ("disflow_track", "disflow_eval"))
+        if not report.exists() or report.stat().st_mtime < max(program.stat().st_mtime for program in programs):
+            return None
+        try:
+            return figures.read_all(json.loads(report.read_text(encoding="utf-8")))
+        except json.JSONDecodeError:  # Broken off while it was written.
+            return None
+
     def track(self, job):
         """Figures of a run; the trajectory, errors and mesh stay in the folder."""
+        before = self._measured_before(self.file(job, ".json")) if self.resume else None
+        if before:
+            return before
         words = ["--sensor", job.address, "--csv", self.file(job, ".csv"), "--headless"]
         for setting in job.settings:
             words += ["--set", setting]

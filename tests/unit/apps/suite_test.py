@@ -3,6 +3,7 @@
 
 import datetime
 import json
+import os
 import pathlib
 import sys
 import tempfile
@@ -99,7 +100,46 @@ class Table(unittest.TestCase):
         self.assertEqual(data["rows"]["box, fast, d415"]["seeds"]["1"]["add_auc"], 99.4)
 
 
+class Resume(unittest.TestCase):
+    JOB = runs.Job("box, fast, d415", "box?motion=fast&noise=d415", 1)
+
+    def programs(self, folder, resume=True):
+        for name in ("disflow_track", "disflow_eval"):
+            (pathlib.Path(folder) / name).touch()
+        return runs.Programs(folder, pathlib.Path(folder) / "out", resume)
+
+    def track(self, programs):
+        """Figures without any program being run; those of a run would be None here."""
+        programs.call = lambda *words, **options: None
+        return programs.track(self.JOB)["add_auc"]
+
+    def test_report_of_the_same_programs_is_kept_only_when_asked_for(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for resume, kept in ((True, 99.5), (False, figures.FAILED["add_auc"])):
+                programs = self.programs(folder, resume)
+                programs.file(self.JOB, ".json").write_text('{"add_auc_percent": 99.5}', encoding="utf-8")
+                self.assertEqual(self.track(programs), kept)
+
+    def test_report_of_older_programs_or_a_torn_one_is_measured_again(self):
+        with tempfile.TemporaryDirectory() as folder:
+            programs = self.programs(folder)
+            report = programs.file(self.JOB, ".json")
+            report.write_text('{"add_auc_perc', encoding="utf-8")
+            self.assertEqual(self.track(programs), 0.0)
+            report.write_text('{"add_auc_percent": 99.5}', encoding="utf-8")
+            os.utime(report, (1e9, 1e9))
+            self.assertEqual(self.track(programs), 0.0)
+
+
 class Rows(unittest.TestCase):
+    def test_scanned_mesh_is_shown_by_its_name_and_holds_itself_to_its_plain_row(self):
+        rows = sequences.of_scanned(pathlib.Path("/folder/007_tin.obj"))
+        names = {row.name for row in rows}
+        self.assertEqual(len(names), len(rows))
+        self.assertTrue(all(name.startswith("007_tin, ") for name in names))
+        self.assertTrue(all(row.like in names for row in rows if row.like))
+        self.assertTrue(all(row.scene.startswith("obj:/folder/007_tin.obj?motion=") for row in rows))
+
     def test_real_cameras_come_first_and_white_noise_last(self):
         noises = [row.name.split(", ")[2] for row in sequences.ROWS]
         self.assertEqual(noises[0], "stereo")
