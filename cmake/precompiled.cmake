@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Reading Eigen and the standard library is most of what a file of the programs takes to compile; with this it is done once.
-# Not for core and hal, whose flags are others (cmake/flags.cmake), nor by default: every file shall name what it includes,
-# which nobody notices with these.
+# Reading Eigen and the standard library is most of what a file of the programs takes to compile; with this it is done once,
+# and what a target's own headers ask for once for every eight files. Not for core and hal, whose flags are others
+# (cmake/flags.cmake), nor by default: every file shall name what it includes, which nobody notices with these.
 add_library(disflow_headers OBJECT ${PROJECT_SOURCE_DIR}/cmake/precompiled.cc)
 target_link_libraries(disflow_headers PRIVATE disflow::core disflow_warnings)
 target_precompile_headers(disflow_headers PRIVATE
@@ -15,7 +15,10 @@ function(disflow_precompile folder)
     if(type MATCHES "^(STATIC_LIBRARY|EXECUTABLE)$")
       # As in the precompiled headers.
       target_compile_options(${target} PRIVATE -ffp-contract=off)
+      # A class of a source file may have members of types of its unnamed namespace; GCC takes files read together for headers.
+      target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
       target_precompile_headers(${target} REUSE_FROM disflow_headers)
+      set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
     endif()
   endforeach()
   get_property(folders DIRECTORY ${folder} PROPERTY SUBDIRECTORIES)

@@ -39,7 +39,7 @@ double Share(const std::vector<double>& values, std::size_t total, double low, d
 }
 
 template <class Error>
-std::optional<Consistency> Evaluate(const AlignedTrajectory& run,
+std::optional<Consistency> OfErrors(const AlignedTrajectory& run,
                                     const std::optional<Mat6d> EstimateRow::*covariance,
                                     Error error_of) {
   Consistency result;
@@ -72,11 +72,11 @@ double ChiSquare6Cdf(double x) {
 }
 
 std::optional<Consistency> EvaluatePoseConsistency(const AlignedTrajectory& run) {
-  return Evaluate(run, &EstimateRow::pose_covariance, PoseError);
+  return OfErrors(run, &EstimateRow::pose_covariance, PoseError);
 }
 
 std::optional<Consistency> EvaluateTwistConsistency(const AlignedTrajectory& run) {
-  return Evaluate(run, &EstimateRow::twist_covariance, TwistError);
+  return OfErrors(run, &EstimateRow::twist_covariance, TwistError);
 }
 
 }  // namespace disflow::apps

@@ -14,6 +14,7 @@
 #include "disflow/posix/link.h"
 #include "disflow/posix/monotonic_clock.h"
 #include "disflow/posix/socket_link.h"
+#include "disflow/types.h"
 #include "image_reducer.h"
 
 namespace {
@@ -24,7 +25,6 @@ using hal::Fault;
 
 enum ExitStatus : int { kDone = 0, kWrongUsage = 2, kInputFailed = 3, kOutputFailed = 4 };
 
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr std::int64_t kHello_ns = 10 * kSecond_ns;
 constexpr std::int64_t kFrame_ns = 60 * kSecond_ns;
 

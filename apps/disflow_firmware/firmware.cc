@@ -7,11 +7,10 @@
 #include "disflow/baremetal/startup.h"
 #include "disflow/hal/mavlink/messages.h"
 #include "disflow/saturating.h"
+#include "disflow/types.h"
 
 namespace disflow::firmware {
 namespace {
-
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
 std::int64_t Now(void* clock) noexcept { return static_cast<hal::Clock*>(clock)->NowNs(); }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "disflow/types.h"
 #include "program/exit_status.h"
 #include "program/status_token.h"
 
@@ -13,7 +14,6 @@ namespace disflow::apps {
 namespace {
 
 constexpr int kSignificantDigits = 9;  // gives every float back exactly
-constexpr std::int64_t kNsPerSecond = 1'000'000'000;
 constexpr int kTriangle = 21;
 
 /// One row of text in fixed memory.
@@ -40,8 +40,8 @@ class Row {
     const bool negative = value_ns < 0;
     const auto magnitude =
         negative ? 0 - static_cast<std::uint64_t>(value_ns) : static_cast<std::uint64_t>(value_ns);
-    const auto seconds = static_cast<unsigned long long>(magnitude / kNsPerSecond);
-    const auto rest = static_cast<unsigned long long>(magnitude % kNsPerSecond);
+    const auto seconds = static_cast<unsigned long long>(magnitude / kSecond_ns);
+    const auto rest = static_cast<unsigned long long>(magnitude % kSecond_ns);
     const int length =
         std::snprintf(Here(), Room(), "%s%llu.%09llu", negative ? "-" : "", seconds, rest);
     if (length > 0) size_ += static_cast<std::size_t>(length);

@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <limits>
 
+#include "disflow/types.h"
 #include "program/exit_status.h"
 #include "program/stop_signal.h"
 
 namespace disflow::apps {
 namespace {
 
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
 /// Also how soon a stop signal is noticed.
 constexpr std::int64_t kTimeout_ns = kSecond_ns / 5;
 constexpr std::int64_t kSaidUnreadable = 5;

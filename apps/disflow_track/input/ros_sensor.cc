@@ -2,6 +2,7 @@
 #include "input/ros_sensor.h"
 
 #include "disflow/posix/dds/ros_depth_sensor.h"
+#include "disflow/types.h"
 #include "input/ros_node_options.h"
 #include "program/exit_status.h"
 #include "program/stop_signal.h"
@@ -10,7 +11,6 @@
 namespace disflow::apps {
 namespace {
 
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr int kMostSaid = 8;
 
 /// Drivers are started together with this program and need seconds for their camera.

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "disflow/saturating.h"
+#include "disflow/types.h"
 #include "links/choice_command.h"
 #include "links/link_words.h"
 #include "program/exit_status.h"
@@ -15,8 +16,6 @@ namespace {
 
 namespace mavlink = hal::mavlink;
 using Pose = hal::LinkAddress::Pose;
-
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
 mavlink::TelemetryOptions EncoderOptions(const Options& options, std::uint8_t object_index) {
   mavlink::TelemetryOptions encoder;

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "links/telemetry_output.h"
 
+#include "disflow/types.h"
+
 namespace disflow::apps {
-namespace {
-
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
-
-}  // namespace
 
 TelemetryOutput::TelemetryOutput(const Options& options, const hal::SensorInfo& sensor,
                                  hal::CameraPoseHistory* camera_poses, Console& console)

@@ -12,7 +12,7 @@
 namespace disflow::apps {
 namespace {
 
-constexpr std::int64_t kPause_ns = 5'000'000'000;
+constexpr std::int64_t kRetry_ns = 5'000'000'000;
 
 std::int64_t NowNs() { return posix::MonotonicClock().NowNs(); }
 
@@ -85,7 +85,7 @@ void PartMaker::Open() {
     Fail(std::string(failure.what()) + "; the files are not rotated, it is tried again");
   }
   const std::lock_guard lock(mutex_);
-  if (!part) try_again_ns_ = NowNs() + kPause_ns;
+  if (!part) try_again_ns_ = NowNs() + kRetry_ns;
   next_ = std::move(part);
   wanted_ = false;
   changed_.notify_all();

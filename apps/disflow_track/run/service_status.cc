@@ -8,7 +8,7 @@
 namespace disflow::apps {
 namespace {
 
-constexpr std::int64_t kInterval_ns = 2'000'000'000;
+constexpr std::int64_t kReportEvery_ns = 2'000'000'000;
 
 }  // namespace
 
@@ -16,7 +16,7 @@ void ServiceStatus::Turn(std::span<const FrameResult> results, bool source_is_al
                          std::int64_t now_ns) noexcept {
   if (!notifier_.active()) return;
   if (source_is_alive) notifier_.Beat(now_ns);
-  if (reported_ns_ == 0 || now_ns - reported_ns_ >= kInterval_ns) Report(results, now_ns);
+  if (reported_ns_ == 0 || now_ns - reported_ns_ >= kReportEvery_ns) Report(results, now_ns);
 }
 
 void ServiceStatus::Report(std::span<const FrameResult> results, std::int64_t now_ns) noexcept {

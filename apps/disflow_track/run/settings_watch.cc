@@ -12,7 +12,7 @@ namespace disflow::apps {
 namespace {
 
 /// Between two readings, however often the signal comes.
-constexpr std::int64_t kPause_ns = 200'000'000;
+constexpr std::int64_t kLookEvery_ns = 200'000'000;
 /// More are counted: a log line has an end.
 constexpr std::size_t kMostSaid = 12;
 
@@ -50,7 +50,7 @@ void SettingsWatch::Work() {
       console_.Say(std::string(failure.what()) + "; all settings stay as they are",
                    Severity::kError);
     }
-    clock.SleepUntilNs(clock.NowNs() + kPause_ns);
+    clock.SleepUntilNs(clock.NowNs() + kLookEvery_ns);
   }
 }
 

@@ -10,7 +10,7 @@
 namespace disflow::apps {
 namespace {
 
-constexpr std::int64_t kInterval_ns = 1'000'000'000;
+constexpr std::int64_t kQuiet_ns = 1'000'000'000;
 /// `journalctl MESSAGE_ID=…` finds all of them.
 constexpr std::string_view kMessageId = "6d1f0c5b7a3e4f6e9b0c8a2d4e5f7a91";
 
@@ -43,8 +43,7 @@ void StateLog::Turn(std::span<const FrameResult> results, std::int64_t now_ns,
     const Estimate& estimate = result.estimate;
     if (estimate.state != object.seen) ++object.changes;
     object.seen = estimate.state;
-    if (object.changes == 0 || (object.any_said && now_ns - object.said_ns < kInterval_ns))
-      continue;
+    if (object.changes == 0 || (object.any_said && now_ns - object.said_ns < kQuiet_ns)) continue;
     std::array<char, 256> message{};
     const int length =
         std::snprintf(message.data(), message.size(), "%s: %s (was %s), quality %d",

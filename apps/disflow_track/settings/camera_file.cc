@@ -14,7 +14,7 @@ namespace {
 
 using posix::CameraAddress;
 
-struct Key {
+struct CameraNumber {
   const char* name;
   double min;
   double max;
@@ -22,20 +22,20 @@ struct Key {
   bool required;
 };
 
-constexpr std::array kKeys{
-    Key{"width", 1.0, CameraAddress::kMaxSide_px, true, true},
-    Key{"height", 1.0, CameraAddress::kMaxSide_px, true, true},
-    Key{"fx", 1.0, kMaxIntrinsic_px, false, true},
-    Key{"fy", 1.0, kMaxIntrinsic_px, false, true},
-    Key{"cx", -kMaxIntrinsic_px, kMaxIntrinsic_px, false, true},
-    Key{"cy", -kMaxIntrinsic_px, kMaxIntrinsic_px, false, true},
-    Key{"depth_scale", 1e-7, 1.0, false, false},
+constexpr std::array kNumbers{
+    CameraNumber{"width", 1.0, CameraAddress::kMaxSide_px, true, true},
+    CameraNumber{"height", 1.0, CameraAddress::kMaxSide_px, true, true},
+    CameraNumber{"fx", 1.0, kMaxIntrinsic_px, false, true},
+    CameraNumber{"fy", 1.0, kMaxIntrinsic_px, false, true},
+    CameraNumber{"cx", -kMaxIntrinsic_px, kMaxIntrinsic_px, false, true},
+    CameraNumber{"cy", -kMaxIntrinsic_px, kMaxIntrinsic_px, false, true},
+    CameraNumber{"depth_scale", 1e-7, 1.0, false, false},
 };
 
 constexpr const char* kWhatIsNeeded =
     "a camera file has width, height, fx, fy, cx, cy and perhaps depth_scale";
 
-double ReadKey(const std::string& path, const toml::table& table, const Key& key) {
+double ReadKey(const std::string& path, const toml::table& table, const CameraNumber& key) {
   const toml::node* const node = table.get(key.name);
   if (node == nullptr) {
     if (!key.required) return 0.0;
@@ -56,7 +56,7 @@ double ReadKey(const std::string& path, const toml::table& table, const Key& key
 void RefuseUnknownKeys(const std::string& path, const toml::table& table) {
   for (const auto& [name, node] : table) {
     bool known = false;
-    for (const Key& key : kKeys) known = known || name.str() == key.name;
+    for (const CameraNumber& key : kNumbers) known = known || name.str() == key.name;
     if (known) continue;
     Refuse(Where(path, node), std::string(name.str()).append(" is not known; ") + kWhatIsNeeded);
   }
@@ -68,8 +68,8 @@ posix::CameraDescription ReadCameraFile(const std::string& path) {
   if (IsRosCameraFile(path)) return ReadRosCameraFile(path);
   const toml::table table = ParseTomlFile(path);
   RefuseUnknownKeys(path, table);
-  std::array<double, kKeys.size()> values{};
-  for (std::size_t i = 0; i < kKeys.size(); ++i) values[i] = ReadKey(path, table, kKeys[i]);
+  std::array<double, kNumbers.size()> values{};
+  for (std::size_t i = 0; i < kNumbers.size(); ++i) values[i] = ReadKey(path, table, kNumbers[i]);
   posix::CameraDescription description;
   description.width_px = static_cast<int>(values[0]);
   description.height_px = static_cast<int>(values[1]);

@@ -6,12 +6,12 @@
 #include <utility>
 
 #include "disflow/posix/monotonic_clock.h"
+#include "disflow/types.h"
 #include "view/view_messages.h"
 
 namespace disflow::apps {
 namespace {
 
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr std::int64_t kStatusInterval_ns = kSecond_ns / 2;
 constexpr std::int64_t kSurfaceInterval_ns = kSecond_ns / 2;
 /// Drawing the surface takes at most one part in so many of a processor's time.

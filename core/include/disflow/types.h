@@ -27,6 +27,7 @@ using Mat6 = Mat<float, 6, 6>;
 
 /// Nanoseconds on a monotonic clock, see DepthFrame::stamp_ns.
 using StampNs = std::int64_t;
+inline constexpr StampNs kSecond_ns = 1'000'000'000;
 
 /// The span from one stamp to another, at most as long as the type can tell: stamps come from
 /// outside and may be anything.

@@ -5,11 +5,11 @@
 #include <limits>
 
 #include "disflow/saturating.h"
+#include "disflow/types.h"
 
 namespace disflow::hal::mavlink {
 namespace {
 
-constexpr std::int64_t kNsPerS = 1'000'000'000;
 /// Clocks beyond it are none, and differences between clocks below it are always numbers.
 constexpr std::int64_t kMaxClock_ns = std::numeric_limits<std::int64_t>::max() / 4;
 
@@ -51,8 +51,8 @@ bool TimeSync::IsFromAnother(const FrameHeader& sender, std::int64_t now_ns) noe
 
 ClockOffset TimeSync::At(const Sample& sample, std::int64_t now_ns) noexcept {
   const std::int64_t age_ns = std::max<std::int64_t>(now_ns - sample.at_ns, 0);
-  return {sample.offset_ns, sample.half_round_trip_ns + age_ns / kNsPerS * kDrift_nsps +
-                                age_ns % kNsPerS * kDrift_nsps / kNsPerS};
+  return {sample.offset_ns, sample.half_round_trip_ns + age_ns / kSecond_ns * kDrift_nsps +
+                                age_ns % kSecond_ns * kDrift_nsps / kSecond_ns};
 }
 
 bool TimeSync::Agree(const ClockOffset& one, const ClockOffset& other) noexcept {

@@ -5,19 +5,15 @@
 #include <ctime>
 
 #include "disflow/posix/timespec.h"
+#include "disflow/types.h"
 
 namespace disflow::posix {
-namespace {
-
-constexpr std::int64_t kNsPerS = 1'000'000'000;
-
-}  // namespace
 
 std::int64_t MonotonicClock::DoNowNs() noexcept {
   timespec now{};
   // Cannot fail: the clock exists on every Linux and the pointer is valid.
   (void)::clock_gettime(CLOCK_MONOTONIC, &now);
-  return std::int64_t{now.tv_sec} * kNsPerS + now.tv_nsec;
+  return std::int64_t{now.tv_sec} * kSecond_ns + now.tv_nsec;
 }
 
 void MonotonicClock::DoSleepUntilNs(std::int64_t deadline_ns) noexcept {

@@ -10,6 +10,7 @@
 #include <span>
 
 #include "disflow/hal/little_endian.h"
+#include "disflow/types.h"
 #include "errno_fault.h"
 
 namespace disflow::posix {
@@ -71,7 +72,6 @@ bool SigningTimeFile::Save(SigningTime time) noexcept {
 SigningTime SigningTimeNow() noexcept {
   timespec now{};
   (void)::clock_gettime(CLOCK_REALTIME, &now);
-  constexpr std::int64_t kSecond_ns = 1'000'000'000;
   return hal::mavlink::SigningTimeOf(std::int64_t{now.tv_sec} * kSecond_ns + now.tv_nsec);
 }
 

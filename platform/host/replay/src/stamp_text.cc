@@ -4,19 +4,20 @@
 #include <charconv>
 #include <system_error>
 
+#include "disflow/types.h"
+
 namespace disflow::host {
 
 bool ParseStamp(std::string_view text, StampNs& stamp_ns) {
-  constexpr StampNs kNsPerS = 1'000'000'000;
   const char* const end = text.data() + text.size();
   std::int64_t seconds = 0;
   auto [next, error] = std::from_chars(text.data(), end, seconds);
   constexpr std::int64_t kMaxSeconds = 9'000'000'000;
   if (error != std::errc{} || seconds < 0 || seconds > kMaxSeconds) return false;
-  stamp_ns = seconds * kNsPerS;
+  stamp_ns = seconds * kSecond_ns;
   if (next == end) return true;
   if (*next != '.') return false;
-  StampNs unit_ns = kNsPerS;
+  StampNs unit_ns = kSecond_ns;
   for (++next; next != end; ++next) {
     if (*next < '0' || *next > '9') return false;
     unit_ns /= 10;

@@ -12,6 +12,7 @@
 #include "disflow/host/depth_metres.h"
 #include "disflow/host/png_image.h"
 #include "disflow/host/sequence_layout.h"
+#include "disflow/types.h"
 #include "file_output.h"
 
 namespace disflow::host {
@@ -114,10 +115,9 @@ hal::Fault SequenceWriter::WriteFrame(const DepthFrame& frame) {
   if (fault.ok()) fault = WriteWorldPose(frame);
   if (!fault.ok()) return GiveUp(fault);
   std::array<char, 64> line{};
-  constexpr StampNs kNsPerS = 1'000'000'000;
   // Not through double, which cannot hold nanoseconds of large stamps.
   (void)std::snprintf(line.data(), line.size(), "%d %" PRId64 ".%09" PRId64, frames_,
-                      frame.stamp_ns / kNsPerS, frame.stamp_ns % kNsPerS);
+                      frame.stamp_ns / kSecond_ns, frame.stamp_ns % kSecond_ns);
   stamp_line_ = line.data();
   pending_ = true;
   ++frames_;

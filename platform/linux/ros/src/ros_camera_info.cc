@@ -15,7 +15,6 @@ using hal::Fault;
 using hal::MakeFault;
 
 constexpr std::string_view kCompressedDepth = "/compressedDepth";
-constexpr std::size_t kMostShown = 48;
 
 /// Models that are a pinhole where all coefficients are 0; a fisheye's never is.
 bool IsPinholeModel(std::string_view model) noexcept {
@@ -69,8 +68,7 @@ Fault ReadCameraInfo(const RosCameraInfo& info, bool rectified,
                      "the lens distorts (%s, first coefficient %g) and the images are not "
                      "rectified: subscribe to the rectified topic (image_proc makes one), or say "
                      "rectified=yes if they are",
-                     ShownText(info.distortion_model, kMostShown).c_str(),
-                     info.d.empty() ? 0.0 : info.d[0]);
+                     ShownText(info.distortion_model).c_str(), info.d.empty() ? 0.0 : info.d[0]);
   }
   RosIntrinsics read;
   if (const Fault fault = ReadSize(info, read); !fault.ok()) return fault;

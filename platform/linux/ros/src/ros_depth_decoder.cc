@@ -18,8 +18,6 @@ using hal::MakeFault;
 
 /// An enumeration and two floats ahead of the PNG, little endian as all that ROS runs on.
 constexpr std::size_t kParameterBytes = 12;
-/// Of a text in a message, so that the rest of it has room.
-constexpr std::size_t kMostShown = 48;
 
 bool FormatOf(std::string_view encoding, DepthFormat& format) noexcept {
   const bool is_float = encoding == "32FC1";
@@ -30,7 +28,7 @@ bool FormatOf(std::string_view encoding, DepthFormat& format) noexcept {
 Fault NoDepth(std::string_view encoding) {
   return MakeFault(Status::kUnsupported,
                    "encoding '%s' is no depth; 16UC1 and 32FC1 are: is this the depth topic?",
-                   ShownText(encoding, kMostShown).c_str());
+                   ShownText(encoding).c_str());
 }
 
 std::string_view Trimmed(std::string_view text) noexcept {
@@ -67,7 +65,7 @@ Fault ReadFormat(std::string_view text, DepthFormat& format) {
   return MakeFault(Status::kUnsupported,
                    "format '%s' cannot be read; set the publisher's parameter "
                    "<topic>.compressedDepth.format to png",
-                   ShownText(text, kMostShown).c_str());
+                   ShownText(text).c_str());
 }
 
 /// Of inverse depth, quantised: depth = a / (value - b).

@@ -38,7 +38,7 @@ Fault ReadMask(const BagMessage& message, StampNs& stamp_ns, Mask& mask) {
   if (!fault.ok()) return fault;
   if (image.encoding != "mono8" && image.encoding != "8UC1") {
     return MakeFault(Status::kUnsupported, "encoding '%s' is no mask; mono8 and 8UC1 are",
-                     ShownText(image.encoding, 48).c_str());
+                     ShownText(image.encoding).c_str());
   }
   const std::uint64_t step = image.step_bytes;
   if (image.width_px > host::kMaxImageSide_px || image.height_px > host::kMaxImageSide_px ||

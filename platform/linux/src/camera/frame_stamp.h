@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "disflow/hal/depth_sensor.h"
+#include "disflow/types.h"
 
 namespace disflow::posix {
 
@@ -22,9 +23,8 @@ namespace disflow::posix {
 
 /// Without overflow for any stamp of the next 292 years.
 [[nodiscard]] inline std::int64_t StampNsOf(const v4l2_buffer& buffer) noexcept {
-  constexpr std::int64_t kNsPerSecond = 1'000'000'000;
   constexpr std::int64_t kNsPerUs = 1'000;
-  return std::int64_t{buffer.timestamp.tv_sec} * kNsPerSecond +
+  return std::int64_t{buffer.timestamp.tv_sec} * kSecond_ns +
          std::int64_t{buffer.timestamp.tv_usec} * kNsPerUs;
 }
 

@@ -42,7 +42,7 @@ class TextList {
   bool full_ = false;
 };
 
-double RateOf(const v4l2_fract& interval) noexcept {
+double ImagesPerSecond(const v4l2_fract& interval) noexcept {
   return static_cast<double>(interval.denominator) /
          static_cast<double>(interval.numerator == 0 ? 1 : interval.numerator);
 }
@@ -104,10 +104,11 @@ void ListRates(VideoKernel& kernel, int fd, std::uint32_t fourcc, std::uint32_t 
   v4l2_frmivalenum entry;
   for (std::uint32_t i = 0; NextRate(kernel, fd, i, fourcc, width, height, entry); ++i) {
     if (entry.type == V4L2_FRMIVAL_TYPE_DISCRETE) {
-      list.Add("%.4g", RateOf(entry.discrete));
+      list.Add("%.4g", ImagesPerSecond(entry.discrete));
       continue;
     }
-    list.Add("%.4g to %.4g", RateOf(entry.stepwise.max), RateOf(entry.stepwise.min));
+    list.Add("%.4g to %.4g", ImagesPerSecond(entry.stepwise.max),
+             ImagesPerSecond(entry.stepwise.min));
     return;
   }
 }

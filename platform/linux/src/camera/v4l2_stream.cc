@@ -4,13 +4,14 @@
 #include <algorithm>
 #include <cerrno>
 
+#include "disflow/types.h"
+
 namespace disflow::posix {
 namespace {
 
 using hal::Fault;
 using hal::MakeFault;
 
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
 /// Some cameras take more than a second to start.
 constexpr std::int64_t kMinWatchdog_ns = 2 * kSecond_ns;
 constexpr float kWatchdogFrames = 10.0F;

@@ -4,15 +4,16 @@
 #include <cstdint>
 #include <ctime>
 
+#include "disflow/types.h"
+
 namespace disflow::posix {
 
 /// A span or a time as the system's calls take it; both members have 32 bits on small targets.
 /// @param ns Nanoseconds, not negative.
 [[nodiscard]] inline timespec ToTimespec(std::int64_t ns) noexcept {
-  constexpr std::int64_t kNsPerS = 1'000'000'000;
   timespec time{};
-  time.tv_sec = static_cast<std::time_t>(ns / kNsPerS);
-  time.tv_nsec = static_cast<decltype(time.tv_nsec)>(ns % kNsPerS);
+  time.tv_sec = static_cast<std::time_t>(ns / kSecond_ns);
+  time.tv_nsec = static_cast<decltype(time.tv_nsec)>(ns % kSecond_ns);
   return time;
 }
 
