@@ -1,12 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Reading Eigen and the standard library is most of what a file of the programs takes to compile; with this it is done once,
-# and what a target's own headers ask for once for every eight files. Not for core and hal, whose flags are others
-# (cmake/flags.cmake), nor by default: every file shall name what it includes, which nobody notices with these.
+# and what a target's own headers ask for once for every eight files. Not for core, whose instructions are counted as they
+# are by default, and the first not for hal, whose flags are others (cmake/flags.cmake). Not by default: every file shall name
+# what it includes, which nobody notices with these.
 add_library(disflow_headers OBJECT ${PROJECT_SOURCE_DIR}/cmake/precompiled.cc)
 target_link_libraries(disflow_headers PRIVATE disflow::core disflow_warnings)
 target_precompile_headers(disflow_headers PRIVATE
   <Eigen/Cholesky> <Eigen/Core> <Eigen/Eigenvalues> <Eigen/Geometry>
   <algorithm> <array> <cmath> <deque> <filesystem> <fstream> <functional> <map> <memory> <optional> <span> <string> <vector>)
+
+set(DISFLOW_UNITY UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+set_target_properties(disflow_hal PROPERTIES ${DISFLOW_UNITY})
 
 function(disflow_precompile folder)
   get_property(targets DIRECTORY ${folder} PROPERTY BUILDSYSTEM_TARGETS)
@@ -18,7 +22,7 @@ function(disflow_precompile folder)
       # A class of a source file may have members of types of its unnamed namespace; GCC takes files read together for headers.
       target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
       target_precompile_headers(${target} REUSE_FROM disflow_headers)
-      set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+      set_target_properties(${target} PROPERTIES ${DISFLOW_UNITY})
     endif()
   endforeach()
   get_property(folders DIRECTORY ${folder} PROPERTY SUBDIRECTORIES)
