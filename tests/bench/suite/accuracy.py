@@ -225,6 +225,7 @@ def page(results, plots):
         f"Means over {seeds}; in parentheses the goal, {MET} met, {MISSED} missed. **{summary_line(results)}** "
         "“Longest false” is the longest stretch of frames that were reported as “tracking” though off by more than "
         "2 cm or 10° (the turn of a can or doughnut about its axis included), in the worst seed. "
+        "“Frames lost” counts images that repeat the one before as well; they are predicted, not measured. "
         "All figures, seed by seed: [results.json](results.json).",
         "### Tracking",
         _tracking_table(results),
@@ -250,7 +251,7 @@ def page(results, plots):
     ]
     if results.times:
         parts += [
-            f"Times of one run alone on one core, the fastest of {TIME_REPEATS}, reading the frame not included:",
+            f"Times of one run at a time, the fastest of {TIME_REPEATS}, reading the frame not included:",
             _time_table(results),
         ]
     parts += [f"![{title}]({file})" for file, title in plots]
