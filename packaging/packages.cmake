@@ -46,7 +46,8 @@ ${text}" PARENT_SCOPE)
     set(CPACK_DEBIAN_${upper}_${field} "${value}" PARENT_SCOPE)
   endwhile()
   set(folder ${CMAKE_INSTALL_DATAROOTDIR}/doc/${name})
-  install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${folder} RENAME copyright COMPONENT ${component} EXCLUDE_FROM_ALL)
+  # Others' works are compiled in: the project's own licence alone would leave theirs out.
+  install(FILES ${CMAKE_CURRENT_SOURCE_DIR}/debian/copyright DESTINATION ${folder} COMPONENT ${component} EXCLUDE_FROM_ALL)
   install(FILES ${CMAKE_CURRENT_BINARY_DIR}/changelog.gz DESTINATION ${folder} COMPONENT ${component} EXCLUDE_FROM_ALL)
 endfunction()
 

@@ -34,6 +34,22 @@ has disflow-doc usr/share/doc/disflow/docs/deploy.md usr/share/doc/disflow/docs/
 [ -z "$native" ] || has python3-disflow usr/lib/python3/dist-packages/disflow/__init__.py
 [[ "$(dpkg-deb -f "$programs" Depends)" == *libc6* ]] || die "$programs has no dependencies"
 
+# file_of PACKAGE FILE: what it holds.
+file_of() { dpkg-deb --fsys-tarfile "$(package_of "$1")" | tar -xO "./$2"; }
+# Each package carries the licences of all that was compiled into the programs, by their own bill of materials.
+compiled_in="$(file_of disflow usr/share/doc/disflow/disflow.cdx.json | python3 -c '
+import json, sys
+for item in json.load(sys.stdin)["components"]:
+    if all(use["value"] != "linked" for use in item["properties"]):
+        print(item["name"])')"
+[ -n "$compiled_in" ] || die "the bill of materials names nothing that is compiled in"
+for package in disflow libdisflow0.1 libdisflow-dev disflow-doc ${native:+python3-disflow}; do
+  copyright="$(file_of "$package" "usr/share/doc/$package/copyright")" || die "$package has no copyright"
+  while IFS= read -r name; do
+    grep -qF "Comment: $name: " <<<"$copyright" || die "$name is compiled in, but $package's copyright does not name it"
+  done <<<"$compiled_in"
+done
+
 lintian --allow-root --fail-on error,warning "$folder"/*.deb || die "lintian finds faults"
 
 # The shared library names itself as its package does, and needs nothing but C's library.

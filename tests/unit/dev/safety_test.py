@@ -1,12 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""docs/safety.md names tests as evidence: they have to exist."""
+"""docs/safety.md names tests as evidence: they have to exist. Figures that it quotes have to be those of the pages they come from."""
 import fnmatch
 import pathlib
 import re
 import unittest
 
 _ROOT = pathlib.Path(__file__).resolve().parents[3]
-_PAGE = (_ROOT / "docs" / "safety.md").read_text(encoding="utf-8")
+_DOCS = _ROOT / "docs"
+_PAGE = (_DOCS / "safety.md").read_text(encoding="utf-8")
+_RESULTS = (_DOCS / "results.md").read_text(encoding="utf-8")
+_MEMORY = (_DOCS / "memory.md").read_text(encoding="utf-8")
 _ID = re.compile(r"[A-Z]{1,3}-[0-9]+")
 
 
@@ -15,6 +18,44 @@ def rows(page):
     cells = [[cell.strip() for cell in line.strip().strip("|").split("|")] for line in page.splitlines()
              if line.startswith("|")]
     return [row for row in cells if _ID.fullmatch(row[0])]
+
+
+def limits(page, name):
+    """The last cell of a requirement: what was measured and what is assumed."""
+    return next(row[-1] for row in rows(page) if row[0] == name)
+
+
+def table(page, heading, first_column):
+    """A section's table by its heading's cells; a row that does not say its first cell has that of the row above."""
+    section = page.split(f"\n## {heading}\n")[1].split("\n## ")[0]
+    lines = [[cell.strip().strip("*") for cell in line.strip().strip("|").split("|")] for line in section.splitlines()
+             if line.startswith("|") and not set(line) <= set("|-: ")]
+    columns = next(cells for cells in lines if cells[0] == first_column)
+    found = []
+    for cells in lines[lines.index(columns) + 1:]:
+        found.append(dict(zip(columns, cells)))
+        found[-1][first_column] = cells[0] or found[-2][first_column]
+    return found
+
+
+def instructions_of(results):
+    """Of whole frames, as safety.md quotes them."""
+    whole = {row[""]: row for row in table(results, "Firmware", "") if row["stage"] == "whole frame"}
+    return "; ".join(f"{thing} median {whole[thing]['median']}, most {whole[thing]['most']}" for thing in ["box", "bottle"])
+
+
+def stack_of(memory):
+    row_of = {row["bytes"]: row for row in table(memory, "Firmware", "bytes")}
+    columns = ["Micro (240×180)", "Small (160×120)"]
+    worst, reserved = row_of["stack, worst case by the compiler's call graph"], row_of["stack reserved"]
+    if len({reserved[column] for column in columns}) != 1:
+        raise ValueError("the profiles reserve different stacks: safety.md has to tell both")
+    named = ", ".join(f"{column.split()[0]} {worst[column]}" for column in columns)
+    return f"{named} of {reserved[columns[0]]} bytes"
+
+
+def budgets_of(memory):
+    return re.search(r"^1\. \*\*Budgets\.\*\*.*: (.*)\.$", memory, re.MULTILINE).group(1).replace("≤ ", "")
 
 
 def is_requirement(row):
@@ -72,6 +113,20 @@ class SafetyPage(unittest.TestCase):
     def test_a_test_that_is_gone_would_be_noticed(self):
         gone = ["Tracker.RefusedFrame_ChangesNothing", "firmware.nothing", "tests/fuzz/nothing.cc"]
         self.assertEqual(missing(gone, _ROOT), gone)
+
+    def test_instructions_are_those_of_the_results(self):
+        self.assertIn(instructions_of(_RESULTS), limits(_PAGE, "TIM-1"))
+
+    def test_bytes_are_those_of_the_page_on_memory(self):
+        self.assertIn(stack_of(_MEMORY), limits(_PAGE, "MEM-4"))
+        self.assertIn(budgets_of(_MEMORY), limits(_PAGE, "MEM-3"))
+
+    def test_a_figure_that_changes_on_the_other_page_would_be_noticed(self):
+        whole = next(row for row in table(_RESULTS, "Firmware", "") if row["stage"] == "whole frame")
+        self.assertNotIn(instructions_of(_RESULTS.replace(f"**{whole['most']}**", "**99.99**")), limits(_PAGE, "TIM-1"))
+        worst = re.search(r"\| stack, worst case [^|]*\|([^|]*)\|", _MEMORY).group(1).strip()
+        self.assertNotIn(stack_of(_MEMORY.replace(worst, "9 999")), limits(_PAGE, "MEM-4"))
+        self.assertNotIn(budgets_of(_MEMORY.replace("Dense ≤ 11 MiB", "Dense ≤ 12 MiB")), limits(_PAGE, "MEM-3"))
 
     def test_ids_that_are_referred_to_exist(self):
         ids = {row[0] for row in rows(_PAGE)}
