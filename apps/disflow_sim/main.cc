@@ -68,6 +68,14 @@ constexpr std::array kExplanations{
 /// Several at once, and so not set like the others.
 constexpr std::string_view kMaskKey = "mask";
 
+std::string ObjectNames() {
+  std::string names;
+  for (const std::string_view name : disflow::host::ListSimulationObjects()) {
+    names.append(names.empty() ? "" : ", ").append(name);
+  }
+  return names;
+}
+
 std::string HelpOf(const disflow::host::SimulationOptionText& option) {
   std::string help;
   for (const Explanation& explanation : kExplanations) {
@@ -208,11 +216,8 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", "disflow_sim " DISFLOW_VERSION " (" DISFLOW_BUILD ")");
   app.add_option("OUT_DIR", arguments.out_dir, "Folder to write; created if it does not exist")
       ->required();
-  app.add_option(
-      "--object", arguments.object,
-      "box, bottle, can, doughnut, rounded-box, flat-box, mug, bowl, tube, superellipsoid, "
-      "screwdriver, bracket, spray-bottle or FILE.obj, or several "
-      "joined by +, the nearest first [box]");
+  app.add_option("--object", arguments.object,
+                 ObjectNames() + " or FILE.obj, or several joined by +, the nearest first [box]");
   for (const auto& option : disflow::host::ListSimulationOptions()) {
     if (option.key == kMaskKey) continue;
     const std::string key(option.key);

@@ -271,6 +271,12 @@ std::vector<std::string> ObjectNames(const SimulationOptions& options) {
   return names;
 }
 
+std::vector<std::string_view> ListSimulationObjects() {
+  std::vector<std::string_view> names;
+  for (const Choice<ObjectKind>& object : kObjects) names.push_back(object.word);
+  return names;
+}
+
 std::vector<SimulationOptionText> ListSimulationOptions() {
   std::vector<SimulationOptionText> list;
   for (const Option& option : kOptions) list.push_back({option.key, option.allowed()});

@@ -3,8 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <sstream>
 #include <string>
+#include <string_view>
+#include <vector>
 
+#include "disflow/host/simulation_options.h"
 #include "recorded_sequence.h"
 
 namespace disflow::host {
@@ -52,6 +56,20 @@ TEST(SensorHelp, NamesEveryOptionOfTheSimulation) {
                           "format=", "first=", "scale="}) {
     EXPECT_NE(help.find(key), std::string::npos) << key;
   }
+}
+
+TEST(SensorHelp, NamesEveryObjectOfTheSimulationInLinesThatFit) {
+  constexpr std::size_t kWidth = 100;
+  const std::string help = SensorHelp();
+  const std::vector<std::string_view> names = ListSimulationObjects();
+  EXPECT_GT(names.size(), 10U);
+  for (const std::string_view name : names) {
+    EXPECT_NE(help.find(" " + std::string(name) + ","), std::string::npos) << name;
+    SimulationOptions options;
+    EXPECT_TRUE(SetSimulationObject(name, options).ok()) << name;
+  }
+  std::istringstream lines(help.substr(help.find("sim:OBJECT")));
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), kWidth) << line;
 }
 
 }  // namespace

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "disflow/host/open_sensor.h"
 
+#include <string>
+#include <string_view>
+#include <vector>
+
 #include "disflow/host/replay_sensor.h"
 #include "disflow/host/simulated_object.h"
 #include "disflow/host/uri.h"
@@ -30,6 +34,23 @@ Fault OpenSimulation(const Uri& uri, Sensor& sensor) {
   return simulated.Open();
 }
 
+/// The names of all objects, in lines as wide as the help's others.
+std::string ObjectLines() {
+  constexpr std::size_t kWidth = 100;
+  const std::string indent(17, ' ');
+  std::string lines;
+  std::string line = indent;
+  for (const std::string_view name : ListSimulationObjects()) {
+    if (line.size() + name.size() + 2 > kWidth) {
+      lines += line + "\n";
+      line = indent;
+    }
+    if (line.size() > indent.size()) line += ' ';
+    line.append(name).append(",");
+  }
+  return lines + line + "\n";
+}
+
 }  // namespace
 
 Fault OpenSensor(std::string_view address, Sensor& sensor) {
@@ -57,10 +78,11 @@ std::string SensorHelp() {
          "               K=fx,fy,cx,cy, T_wc=auto|poses|none (camera poses from T_wc.txt, or from "
          "pose/*.txt,\n"
          "               groundtruth.txt, scene_camera.json), first=N, count=N\n"
-         "  sim:OBJECT   a simulated depth camera; OBJECT is box, bottle, can, doughnut or "
-         "obj:FILE,\n"
-         "               or up to four of these joined by +, whose masks have the labels 1, 2, ... "
-         "Options:\n" +
+         "  sim:OBJECT   a simulated depth camera; OBJECT is\n" +
+         ObjectLines() +
+         "               or obj:FILE, or up to four of these joined by +, whose masks have the "
+         "labels\n"
+         "               1, 2, ... Options:\n" +
          SimulationOptionsHelp();
 }
 

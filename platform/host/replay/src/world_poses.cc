@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "world_poses.h"
 
+#include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <vector>
 
 #include "disflow/host/numbered_files.h"
@@ -22,12 +24,23 @@ hal::Fault CountFault(const fs::path& path, std::size_t count, std::size_t image
                         path.c_str(), count, images);
 }
 
+/// The first frame that has a pose is recorded with a line for each before it. A recording that was
+/// cut short within these has no pose to lose.
+bool IsCutBeforeItsFirstPose(const TextTable& table, const SequenceIndex& index) {
+  const std::vector<TableRow>& rows = table.rows();
+  return index.cut_frames > 0 && rows.size() <= index.frames.size() &&
+         std::all_of(rows.begin(), rows.end(), [](const TableRow& row) {
+           return row.fields.size() == 1 &&
+                  std::string_view(kNoWorldPose).starts_with(row.fields[0]);
+         });
+}
+
 /// `x y z nx ny nz theta` per line, or kNoWorldPose.
 hal::Fault ReadAxisAnglePoses(const fs::path& file, SequenceIndex& index) {
   std::vector<RecordedFrame>& frames = index.frames;
   TextTable table;
   hal::Fault fault = table.Read(file);
-  if (!fault.ok()) return fault;
+  if (!fault.ok() || IsCutBeforeItsFirstPose(table, index)) return fault;
   // Frames that were cut short may have theirs already.
   if (table.rows().size() < frames.size() ||
       table.rows().size() > frames.size() + index.cut_frames) {

@@ -126,6 +126,9 @@ struct SimulationOptions {
 /// All objects, the nearest first.
 [[nodiscard]] std::vector<SimulatedShape> ObjectShapes(const SimulationOptions& options);
 
+/// @return Every name that SetSimulationObject() takes; obj:FILE is none.
+[[nodiscard]] std::vector<std::string_view> ListSimulationObjects();
+
 /// What people are told of an option.
 struct SimulationOptionText {
   std::string_view key;
