@@ -20,6 +20,8 @@ _ARGUMENTS = (
     ("mask", "", "Image, mono8: which pixels are the object; empty: none"),
     ("world", "", "tf frame in which the camera moves; empty: it stands"),
     ("camera", "camera_depth_optical_frame", "tf frame of the images"),
+    ("reset", "", "yes: whoever is in the domain may start an object anew; empty: no"),
+    ("choose", "", "yes: and say what is tracked"),
     ("parameters", "", "yes: whoever is in the domain may change settings by ros2 param"),
     ("lifecycle", "", "yes: and pause and resume by ros2 lifecycle"),
     ("name", "disflow", "name of the node and first part of its topics"),
@@ -42,7 +44,7 @@ def command(value):
         return "dds:" + "&".join(given)
 
     sensor = address("domain", "name", "depth", "info", "rectified", "wait")
-    link = address("domain", "name", "camera", "mask", "world", "parameters", "lifecycle")
+    link = address("domain", "name", "camera", "mask", "world", "reset", "choose", "parameters", "lifecycle")
     return [value("program"), "--headless", "--sensor", sensor, "--link", link, *shlex.split(value("extra"))]
 
 

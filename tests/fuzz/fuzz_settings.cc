@@ -27,11 +27,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   } catch (const apps::Failure& failure) {
     fuzz::Require(std::string(failure.what()).find(file.path()) == 0);
   }
-  try {
-    const posix::CameraDescription camera = apps::ReadRosCameraFile(file.path());
-    fuzz::Require(camera.width_px > 0 && camera.height_px > 0 && camera.camera.fx_px >= 1.0F);
-  } catch (const apps::Failure& failure) {
-    fuzz::Require(std::string(failure.what()).find(file.path()) == 0);
+  for (const bool rectified : {false, true}) {
+    try {
+      const posix::CameraDescription camera = apps::ReadRosCameraFile(file.path(), rectified);
+      fuzz::Require(camera.camera.IsValid());
+      fuzz::Require(camera.camera.CanImage(camera.width_px, camera.height_px));
+    } catch (const apps::Failure& failure) {
+      fuzz::Require(std::string(failure.what()).find(file.path()) == 0);
+    }
   }
   try {
     Config config;

@@ -32,7 +32,9 @@ Fault OpenCamera(const std::string& uri, host::Sensor& sensor) {
   }
 #endif
   posix::CameraDescription description;
-  if (address.intrinsics[0] != '\0') description = ReadCameraFile(address.intrinsics);
+  if (address.intrinsics[0] != '\0') {
+    description = ReadCameraFile(address.intrinsics, address.rectified);
+  }
 #ifdef DISFLOW_HAS_LIBCAMERA
   if (address.kind == CameraAddress::Kind::kLibcamera) {
     return sensor.Emplace<posix::LibcameraSensor>(address, description).Open();

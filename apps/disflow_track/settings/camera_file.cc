@@ -64,8 +64,8 @@ void RefuseUnknownKeys(const std::string& path, const toml::table& table) {
 
 }  // namespace
 
-posix::CameraDescription ReadCameraFile(const std::string& path) {
-  if (IsRosCameraFile(path)) return ReadRosCameraFile(path);
+posix::CameraDescription ReadCameraFile(const std::string& path, bool rectified) {
+  if (IsRosCameraFile(path)) return ReadRosCameraFile(path, rectified);
   const toml::table table = ParseTomlFile(path);
   RefuseUnknownKeys(path, table);
   std::array<double, kNumbers.size()> values{};

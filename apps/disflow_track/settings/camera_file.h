@@ -12,7 +12,10 @@ inline constexpr double kMaxIntrinsic_px = 1e5;
 
 /// Reads a TOML file with width, height, fx, fy, cx, cy and, if wanted, depth_scale; or, by the
 /// name .yaml or .yml, one of ROS's camera_calibration.
+/// @param rectified See ReadRosCameraFile(). Nothing changes for TOML: it has no distortion, and
+/// its numbers are those of the images that come.
 /// @throws Failure kWrongUsage with file, line and key.
-[[nodiscard]] posix::CameraDescription ReadCameraFile(const std::string& path);
+[[nodiscard]] posix::CameraDescription ReadCameraFile(const std::string& path,
+                                                      bool rectified = false);
 
 }  // namespace disflow::apps

@@ -207,6 +207,22 @@ TEST_F(CameraFileTest, FileThatIsNoCamera_IsRefusedWithLineAndKey) {
   }
 }
 
+TEST_F(CameraFileTest, LensThatDistorts_IsTakenOnceTheDriverIsSaidToRectify) {
+  WriteFile(Path("cam.yaml"),
+            "image_width: 320\nimage_height: 240\n"
+            "camera_matrix: {data: [300, 0, 160, 0, 300, 120, 0, 0, 1]}\n"
+            "distortion_coefficients: {data: [0.1, -0.2, 0, 0, 0]}\n"
+            "projection_matrix: {data: [290, 0, 160, 0, 0, 290, 120, 0, 0, 0, 1, 0]}\n");
+  const std::string sensor = "v4l2:/dev/nowhere?intrinsics=" + Path("cam.yaml");
+  const Outcome refused = RunTrack({"--sensor", sensor}, scratch());
+  EXPECT_EQ(refused.exit_status, 2) << refused.err;
+  EXPECT_NE(refused.err.find("rectified=yes"), std::string::npos) << refused.err;
+  // The file is read before the device is looked for.
+  const Outcome taken = RunTrack({"--sensor", sensor + "&rectified=yes"}, scratch());
+  EXPECT_EQ(taken.exit_status, 3) << taken.err;
+  EXPECT_NE(taken.err.find("/dev/nowhere: no such device"), std::string::npos) << taken.err;
+}
+
 TEST_F(CameraFileTest, CameraThatIsNotThere_IsSaidAndListingSaysWhatIs) {
   WriteFile(Path("cam.toml"),
             "width = 320\nheight = 240\nfx = 300.0\nfy = 300.0\ncx = 160\ncy = 120\n");

@@ -96,10 +96,30 @@ Fault ParseFormat(std::string_view text, CameraAddress& address) noexcept {
                    Shown(text).size, Shown(text).text, is_v4l2 ? "v4l2" : "libcamera", known);
 }
 
-enum class Option : std::uint8_t { kFormat, kWidth, kHeight, kRate, kUnit, kFile, kCamera, kCount };
+/// Of TOML and K= it says nothing new: both are of the images that come.
+Fault ParseRectified(std::string_view text, bool& rectified) noexcept {
+  if (text != "yes" && text != "no") {
+    return MakeFault(Status::kInvalidUri, "rectified=%.*s is neither yes nor no", Shown(text).size,
+                     Shown(text).text);
+  }
+  rectified = text == "yes";
+  return {};
+}
+
+enum class Option : std::uint8_t {
+  kFormat,
+  kWidth,
+  kHeight,
+  kRate,
+  kUnit,
+  kFile,
+  kCamera,
+  kRectified,
+  kCount
+};
 
 constexpr std::array<const char*, static_cast<std::size_t>(Option::kCount)> kOptionNames{
-    "format", "width", "height", "fps", "depth_scale", "intrinsics", "K"};
+    "format", "width", "height", "fps", "depth_scale", "intrinsics", "K", "rectified"};
 
 Fault SetOption(Option option, std::string_view value, CameraAddress& address) noexcept {
   const char* const name = kOptionNames[static_cast<std::size_t>(option)];
@@ -118,6 +138,8 @@ Fault SetOption(Option option, std::string_view value, CameraAddress& address) n
       return CopyText("intrinsics", value, address.intrinsics);
     case Option::kCamera:
       return ParseCamera(value, address.camera);
+    case Option::kRectified:
+      return ParseRectified(value, address.rectified);
     case Option::kCount:
       break;
   }
@@ -137,7 +159,7 @@ Fault ParseOption(std::string_view item, unsigned& seen, CameraAddress& address)
   }
   return MakeFault(Status::kInvalidUri,
                    "'%.*s' is no option of a camera; known: format=, width=, height=, fps=, "
-                   "depth_scale=, intrinsics=, K=",
+                   "depth_scale=, intrinsics=, K=, rectified=",
                    Shown(item).size, Shown(item).text);
 }
 
@@ -192,7 +214,9 @@ const char* const kCameraAddressHelp =
     "fps=30,\n"
     "               depth_scale=0.001 (metres per unit; known for some models), "
     "intrinsics=cam.toml or\n"
-    "               K=fx,fy,cx,cy\n"
+    "               K=fx,fy,cx,cy; with intrinsics=cam.yaml of ROS also rectified=yes|no: whether "
+    "the driver\n"
+    "               rectifies the images (no)\n"
     "  libcamera:N, libcamera:ID\n"
     "               a camera of libcamera, if built with it. Options as above, "
     "format=R16|R12|R10|\n"

@@ -29,7 +29,7 @@ hal::Fault ParseMaskCamera(const std::string& name, CameraAddress& address) noex
   if (!fault.ok()) return fault;
   const bool more_than_rate = address.format != nullptr || address.width_px != 0 ||
                               address.unit_m > 0.0F || address.intrinsics[0] != '\0' ||
-                              address.camera.IsValid();
+                              address.camera.IsValid() || address.rectified;
   if (address.kind == CameraAddress::Kind::kV4l2 && !more_than_rate) return {};
   return hal::MakeFault(Status::kInvalidUri,
                         "mask stream '%s': masks come from v4l2:/dev/NAME or v4l2:serial=TEXT, "

@@ -44,6 +44,17 @@ TEST(CameraAddress, NothingButADevice_LeavesTheRestOpen) {
   EXPECT_EQ(address.format, nullptr);
   EXPECT_EQ(address.width_px, 0);
   EXPECT_FALSE(address.camera.IsValid());
+  EXPECT_FALSE(address.rectified);
+}
+
+TEST(CameraAddress, WhetherTheDriverRectifies_IsTakenWithAnyIntrinsicsOfAnyCamera) {
+  for (const char* start : {"v4l2:/dev/video0?", "v4l2:serial=0123AB&", "libcamera:0?"}) {
+    for (const char* intrinsics : {"intrinsics=cam.yaml", "intrinsics=cam.toml", "K=4,4,2,1.5"}) {
+      const std::string uri = std::string(start) + intrinsics;
+      EXPECT_TRUE(Parse(uri + "&rectified=yes").rectified);
+      EXPECT_FALSE(Parse(uri + "&rectified=no").rectified);
+    }
+  }
 }
 
 TEST(CameraAddress, Serial_MayBeFollowedByEitherSeparator) {
@@ -85,6 +96,9 @@ TEST(CameraAddress, WrongPart_IsNamedWithWhatIsAllowed) {
       {"v4l2:/dev/video0?colour=red", "colour=red"},
       {"v4l2:/dev/video0?fps", "'fps'"},
       {"v4l2:/dev/video0?intrinsics=", "intrinsics"},
+      {"v4l2:/dev/video0?rectified=1", "rectified=1 is neither yes nor no"},
+      {"v4l2:/dev/video0?rectified=", "neither yes nor no"},
+      {"v4l2:/dev/video0?rectified=no&rectified=yes", "rectified is given twice"},
   };
   for (const auto& [uri, word] : cases) {
     EXPECT_NE(Refusal(uri).find(word), std::string::npos) << uri << " said: " << Refusal(uri);

@@ -14,12 +14,13 @@ class CameraFileFixture : public test::ScratchFolderTest {
  protected:
   explicit CameraFileFixture(const char* name) : name_(name) {}
 
-  [[nodiscard]] posix::CameraDescription Read(const std::string& text) const {
+  [[nodiscard]] posix::CameraDescription Read(const std::string& text,
+                                              bool rectified = false) const {
     test::WriteFile(Path(name_), text);
-    return ReadCameraFile(Path(name_));
+    return ReadCameraFile(Path(name_), rectified);
   }
-  [[nodiscard]] std::string Refusal(const std::string& text) const {
-    return RefusalOf([&] { (void)Read(text); });
+  [[nodiscard]] std::string Refusal(const std::string& text, bool rectified = false) const {
+    return RefusalOf([&] { (void)Read(text, rectified); });
   }
 
  private:

@@ -28,6 +28,10 @@ TEST_F(CameraFileTest, AllNumbers_AreTaken) {
   EXPECT_EQ(read.unit_m, 0.00025F);
 }
 
+TEST_F(CameraFileTest, WhoeverRectifies_ItsNumbersAreOfTheImagesThatCome) {
+  EXPECT_EQ(Read(kComplete, true).camera.fx_px, 570.5F);
+}
+
 TEST_F(CameraFileTest, WithoutDepthScale_ItIsNotSaid) { EXPECT_EQ(Read(kComplete).unit_m, 0.0F); }
 
 TEST_F(CameraFileTest, EachMissingNumber_IsNamed) {

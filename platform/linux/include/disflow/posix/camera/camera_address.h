@@ -30,15 +30,16 @@ struct CameraAddress {
   int height_px = 0;
   float rate_hz = 0.0F;                      ///< 0 = the driver's.
   float unit_m = 0.0F;                       ///< Metres per unit; 0 = not said.
-  char intrinsics[kMaxFileLength + 1] = {};  ///< A TOML file; empty = `camera` holds them.
+  char intrinsics[kMaxFileLength + 1] = {};  ///< TOML, or YAML of ROS; empty = `camera` holds them.
+  bool rectified = false;                    ///< By the driver; tells which matrix of YAML counts.
   PinholeCamera camera;                      ///< Given by K=; not valid if a file is named.
 };
 
 /// Reads
 /// `v4l2:/dev/NAME?OPTIONS`, `v4l2:serial=TEXT?OPTIONS` (also `v4l2:serial=TEXT&OPTIONS`) or
 /// `libcamera:NUMBER?OPTIONS`, `libcamera:ID?OPTIONS`, with OPTIONS separated by '&':
-/// format=NAME, width=PX, height=PX, fps=HZ, depth_scale=METRES, intrinsics=FILE.toml or
-/// K=fx,fy,cx,cy. Bounded in everything; no heap.
+/// format=NAME, width=PX, height=PX, fps=HZ, depth_scale=METRES, intrinsics=FILE or K=fx,fy,cx,cy,
+/// rectified=yes|no. Bounded in everything; no heap.
 /// @param address Unchanged unless the result is ok.
 /// @return kInvalidUri with the part that is wrong and what is allowed.
 [[nodiscard]] hal::Fault ParseCameraAddress(std::string_view uri, CameraAddress& address) noexcept;
