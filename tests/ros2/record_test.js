@@ -3,10 +3,12 @@
 // values of the same run's CSV; and played again it is the same run. Usage: node record_test.js BIN_FOLDER
 import assert from "node:assert/strict";
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import { open } from "node:fs/promises";
 import { before, test } from "node:test";
 import { parse } from "@foxglove/rosmsg";
 import { MessageReader } from "@foxglove/rosmsg2-serialization";
 import { McapIndexedReader, McapStreamReader } from "@mcap/core";
+import { FileHandleReadable } from "@mcap/nodejs";
 import { millimetres, png } from "./frames.js";
 import { readerOf } from "./messages.js";
 import { file, finished, run } from "./program.js";
@@ -42,17 +44,18 @@ function decodeAll(schemas, channels, messages) {
   return decoded;
 }
 
-/** By the index at the end of the file. */
+/** By the index at the end of the file, from the disk as Foxglove's own programs read it. */
 async function readByIndex(path) {
-  const bytes = readFileSync(path);
-  const readable = {
-    size: async () => BigInt(bytes.length),
-    read: async (offset, length) => new Uint8Array(bytes.subarray(Number(offset), Number(offset + length))),
-  };
-  const reader = await McapIndexedReader.Initialize({ readable });
-  const messages = [];
-  for await (const message of reader.readMessages()) messages.push(message);
-  return { reader, schemas: reader.schemasById, channels: reader.channelsById, messages };
+  const handle = await open(path);
+  try {
+    const reader = await McapIndexedReader.Initialize({ readable: new FileHandleReadable(handle) });
+    const messages = [];
+    // What is read next may overwrite the bytes that a message points to.
+    for await (const message of reader.readMessages()) messages.push({ ...message, data: message.data.slice() });
+    return { reader, schemas: reader.schemasById, channels: reader.channelsById, messages };
+  } finally {
+    await handle.close();
+  }
 }
 
 /** From front to end, as far as it goes; checks the checksums. */

@@ -92,14 +92,14 @@ class LinkTrafficTest : public ::testing::Test {
 };
 
 TEST_F(LinkTrafficTest, TwoThousandForeignDatagramsASecond_CostNoFrameItsPose) {
-  constexpr int kFrames = 120;
+  constexpr int kFrames = 300;
   int matched = 0;
   for (int frame = 0; frame < kFrames; ++frame) {
     PassAFrame(frame, /*foreign=*/67);
     if (IsMatched()) ++matched;
   }
-  // The first frame has no motion yet.
-  EXPECT_GE(matched, kFrames - 2);
+  // 99 %; by the first frame one pose has come, which is no motion yet.
+  EXPECT_GE(matched, kFrames * 99 / 100);
   EXPECT_EQ(history_.counters().refused, 0U);
 }
 

@@ -1,13 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """/metrics of a run, read by the parser of Prometheus' own client library: metrics_test.py DISFLOW_TRACK"""
-import os
-import re
-import subprocess
 import sys
-import time
 import unittest
 import urllib.error
 import urllib.request
+
+from metrics_run import PATIENCE_S, MetricsRun, until
 
 try:
     from prometheus_client.parser import text_string_to_metric_families
@@ -16,44 +14,24 @@ except ImportError:
     sys.exit(77)
 
 PROGRAM = sys.argv.pop(1)
-TOKEN = 'a-token-for-the-test'
-PATIENCE_S = 60
 
 
 class Metrics(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        environment = {**os.environ, 'DISFLOW_VIEW_TOKEN': TOKEN}
-        cls.program = subprocess.Popen(
-            [PROGRAM, '--sensor', 'sim:box+bottle?frames=100000&width=160&height=90', '--rate', 'realtime', '--headless', '--view', ':0',
-             '--object', 'name=box,label=1', '--object', 'name=bottle,label=2'],
-            stderr=subprocess.PIPE, text=True, env=environment)
-        for line in cls.program.stderr:
-            found = re.search(r'live view: (http://[^?]*/)', line)
-            if found:
-                cls.url = found.group(1) + 'metrics'
-                return
-        raise AssertionError('disflow_track ended')
+        cls.run_of_two = MetricsRun(PROGRAM)
 
     @classmethod
     def tearDownClass(cls):
-        cls.program.terminate()
-        cls.program.communicate(timeout=PATIENCE_S)
+        cls.run_of_two.end()
 
     def scrape(self):
-        request = urllib.request.Request(self.url, headers={'Authorization': f'Bearer {TOKEN}'})
-        with urllib.request.urlopen(request, timeout=PATIENCE_S) as answer:
-            self.assertTrue(answer.headers['Content-Type'].startswith('text/plain; version=0.0.4'))
-            return {family.name: family for family in text_string_to_metric_families(answer.read().decode())}
+        text, content_type = self.run_of_two.scrape()
+        self.assertTrue(content_type.startswith('text/plain; version=0.0.4'))
+        return {family.name: family for family in text_string_to_metric_families(text)}
 
     def until(self, condition):
-        end = time.monotonic() + PATIENCE_S
-        while time.monotonic() < end:
-            families = self.scrape()
-            if condition(families):
-                return families
-            time.sleep(0.1)
-        raise AssertionError('it never came to that')
+        return until(self.scrape, condition)
 
     @staticmethod
     def values(family, **labels):
@@ -94,7 +72,7 @@ class Metrics(unittest.TestCase):
 
     def test_without_the_token_nothing_is_told(self):
         with self.assertRaises(urllib.error.HTTPError) as refused:
-            urllib.request.urlopen(self.url, timeout=PATIENCE_S)
+            urllib.request.urlopen(self.run_of_two.url, timeout=PATIENCE_S)
         self.assertEqual(refused.exception.code, 401)
 
 
