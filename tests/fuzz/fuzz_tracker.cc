@@ -23,8 +23,19 @@ namespace {
 using namespace disflow;
 using fuzz::Require;
 
-/// With sanitizers a frame takes tens of milliseconds.
+struct ImageSize {
+  int width_px = 0;
+  int height_px = 0;
+};
+
+/// With sanitizers a frame of this size takes tens of milliseconds.
 constexpr int kMaxFrames = 8;
+constexpr ImageSize kLargest{127, 97};
+
+/// Of long runs: enough to lose an object, to search it and to start again, more than once.
+constexpr int kMaxLongFrames = 200;
+constexpr int kMostRepeats = 100;
+constexpr ImageSize kLargestOfLong{63, 47};
 
 /// The fuzzer's bytes as numbers; zeros when they have come to their end.
 class Choices {
@@ -36,7 +47,7 @@ class Choices {
   T Next() {
     T value{};
     const std::size_t size = std::min(sizeof(T), bytes_.size());
-    std::memcpy(&value, bytes_.data(), size);
+    if (size > 0) std::memcpy(&value, bytes_.data(), size);
     bytes_ = bytes_.subspan(size);
     return value;
   }
@@ -68,14 +79,23 @@ class Choices {
 /// A camera that is out of order in every way in which a frame can be.
 class BrokenCamera {
  public:
-  explicit BrokenCamera(Choices& choices) : choices_(choices) {}
+  BrokenCamera(Choices& choices, ImageSize largest) : choices_(choices), largest_(largest) {}
+
+  void ChooseSize() {
+    constexpr int kSmallest_px = 8;
+    width_ = kSmallest_px + choices_.Below(largest_.width_px + 1 - kSmallest_px);
+    height_ = kSmallest_px + choices_.Below(largest_.height_px + 1 - kSmallest_px);
+  }
+  /// Moves the body in images to come, a little in depth too: the same image once more would be
+  /// taken for one.
+  void Move(int right_px, int down_px) {
+    moved_right_px_ += right_px;
+    moved_down_px_ += down_px;
+    ++moves_;
+  }
 
   DepthFrame Next() {
-    if (frames_ == 0 || choices_.Seldom(16)) {
-      width_ = 8 + choices_.Below(120);
-      height_ = 8 + choices_.Below(90);
-    }
-    ++frames_;
+    if (width_ == 0 || choices_.Seldom(16)) ChooseSize();
     DepthFrame frame;
     DrawImage(frame);
     ChooseMask(frame);
@@ -95,10 +115,11 @@ class BrokenCamera {
   /// A body before a wall, with rectangles of anything in it.
   void DrawImage(DepthFrame& frame) {
     const float wall_m = 1.5F;
-    const float body_m = 0.4F + 0.002F * static_cast<float>(choices_.Below(256));
+    const float body_m = 0.4F + 0.002F * static_cast<float>(choices_.Below(256)) +
+                         0.0005F * static_cast<float>(moves_ % 3);
     const float bend = 0.0005F * static_cast<float>(choices_.Below(32) - 16);
-    const int left = choices_.Below(width_);
-    const int top = choices_.Below(height_);
+    const int left = std::clamp(choices_.Below(width_) + moved_right_px_, 0, width_);
+    const int top = std::clamp(choices_.Below(height_) + moved_down_px_, 0, height_);
     const int right = std::min(width_, left + choices_.Below(100));
     const int bottom = std::min(height_, top + choices_.Below(80));
     depth_.assign(static_cast<std::size_t>(width_ * height_), wall_m);
@@ -161,7 +182,10 @@ class BrokenCamera {
   float& At(int u, int v) { return depth_[static_cast<std::size_t>(v * width_ + u)]; }
 
   Choices& choices_;
-  int frames_ = 0;
+  ImageSize largest_;
+  int moved_right_px_ = 0;
+  int moved_down_px_ = 0;
+  int moves_ = 0;
   int width_ = 0;
   int height_ = 0;
   StampNs stamp_ns_ = 1'000'000'000;
@@ -181,23 +205,69 @@ void Check(const Estimate& estimate, Status status) {
   Require(estimate.twist_covariance.diagonal().minCoeff() >= 0.0F);
 }
 
+class Run {
+ public:
+  Run(Choices& choices, ImageSize largest) : choices_(choices), camera_(choices, largest) {
+    Require(tracker_->config_issue().status() == Status::kOk);
+  }
+
+  /// Each frame is as its own bytes say.
+  void TrackFrameByFrame() {
+    for (int i = 0; i < kMaxFrames && !choices_.empty(); ++i) {
+      if (i > 0) ResetSeldom();
+      Track();
+    }
+  }
+
+  /// The same bytes say what many frames are, of a body that moves: what takes its time happens.
+  void TrackLong() {
+    camera_.ChooseSize();
+    for (int i = 0; i < kMaxLongFrames && !choices_.empty();) {
+      const int end = std::min(kMaxLongFrames, i + 1 + choices_.Below(kMostRepeats));
+      const int right_px = choices_.Below(5) - 2;
+      const int down_px = choices_.Below(5) - 2;
+      ResetSeldom();
+      const Choices instruction = choices_;
+      for (; i < end; ++i) {
+        choices_ = instruction;
+        camera_.Move(right_px, down_px);
+        Track();
+      }
+    }
+  }
+
+ private:
+  static Config Settings() {
+    Config config;
+    config.sampler.target_blocks = 150;
+    config.registration.iterations = 3;
+    config.monitor.min_samples = 20;
+    return config;
+  }
+  void ResetSeldom() {
+    if (choices_.Seldom(32)) tracker_->Reset();
+  }
+  void Track() {
+    const DepthFrame frame = camera_.Next();
+    Estimate estimate;
+    const Status status = tracker_->Process(frame, estimate);
+    Check(estimate, status);
+  }
+
+  Choices& choices_;
+  BrokenCamera camera_;
+  std::unique_ptr<Tracker<profiles::Micro>> tracker_ =
+      std::make_unique<Tracker<profiles::Micro>>(Settings());
+};
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   Choices choices({data, size});
-  Config config;
-  config.sampler.target_blocks = 150;
-  config.registration.iterations = 3;
-  config.monitor.min_samples = 20;
-  const auto tracker = std::make_unique<Tracker<profiles::Micro>>(config);
-  Require(tracker->config_issue().status() == Status::kOk);
-  BrokenCamera camera(choices);
-  for (int i = 0; i < kMaxFrames && !choices.empty(); ++i) {
-    if (choices.Seldom(32)) tracker->Reset();
-    const DepthFrame frame = camera.Next();
-    Estimate estimate;
-    const Status status = tracker->Process(frame, estimate);
-    Check(estimate, status);
+  if (choices.Seldom(32)) {
+    Run(choices, kLargestOfLong).TrackLong();
+  } else {
+    Run(choices, kLargest).TrackFrameByFrame();
   }
   return 0;
 }

@@ -19,6 +19,8 @@ using Bytes = std::vector<std::uint8_t>;
 
 /// Places of a file that are tried, evenly spread.
 constexpr std::size_t kPlaces = 25;
+/// Of inputs that take their time, which their names say: slow_...
+constexpr std::size_t kPlacesOfSlow = 4;
 
 Bytes Read(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
@@ -31,8 +33,8 @@ void Try(const std::uint8_t* data, std::size_t size) {
   (void)LLVMFuzzerTestOneInput(copy.data(), copy.size());
 }
 
-std::size_t TryDamaged(const Bytes& bytes) {
-  const std::size_t step = std::max<std::size_t>(bytes.size() / kPlaces, 1);
+std::size_t TryDamaged(const Bytes& bytes, std::size_t places) {
+  const std::size_t step = std::max<std::size_t>(bytes.size() / places, 1);
   std::size_t tries = 0;
   for (std::size_t place = 0; place < bytes.size(); place += step) {
     Try(bytes.data(), place);
@@ -64,7 +66,8 @@ int main(int count, char** arguments) {
     std::printf("%s\n", file.filename().c_str());
     std::fflush(stdout);
     Try(bytes.data(), bytes.size());
-    tries += 1 + TryDamaged(bytes);
+    const bool is_slow = file.filename().string().starts_with("slow_");
+    tries += 1 + TryDamaged(bytes, is_slow ? kPlacesOfSlow : kPlaces);
   }
   std::printf("%zu inputs\n", tries);
   return tries > 0 ? 0 : 1;

@@ -185,6 +185,111 @@ std::string TomlOfObjects() { return Repeat("", "[[object]]\n"); }
 std::string TomlOfNumbers() { return Repeat("[run]\nseed = [", "1,", "1]\n"); }
 std::string TomlOfALongText() { return "sensor = \"" + std::string(kMegabyte, 'a'); }
 
+/// Sixteen million pixels of nothing, as many as an image may have.
+std::string PngOfOneValue(std::uint32_t width_px, std::uint32_t height_px) {
+  // Before each row stands its filter.
+  const std::size_t bytes = (std::size_t{2} * width_px + 1) * height_px;
+  return PngHeader(width_px, height_px) + Chunk("IDAT", Deflated(bytes)) + Chunk("IEND", "");
+}
+std::string LargePng() { return PngOfOneValue(4096, 4096); }
+std::string WidePng() { return PngOfOneValue(8192, 2048); }
+
+/// A bumpy sheet: vertices in rows, and two triangles between each four of them.
+struct Sheet {
+  static constexpr int kColumns = 120;
+
+  static std::string Vertex(int i) {
+    return std::to_string(i % kColumns) + " " + std::to_string(i / kColumns) + " " +
+           std::to_string(i * 7 % 11);
+  }
+  /// @param line Of a triangle's three corners, counted from 0.
+  template <class Line>
+  static void ForEachTriangle(int rows, Line&& line) {
+    for (int row = 0; row + 1 < rows; ++row) {
+      for (int column = 0; column + 1 < kColumns; ++column) {
+        const int corner = row * kColumns + column;
+        line(corner, corner + 1, corner + kColumns);
+        line(corner + 1, corner + kColumns + 1, corner + kColumns);
+      }
+    }
+  }
+};
+constexpr int kSheetRows = 170;
+
+std::string LargeObj() {
+  std::string text;
+  for (int i = 0; i < kSheetRows * Sheet::kColumns; ++i) text += "v " + Sheet::Vertex(i) + "\n";
+  Sheet::ForEachTriangle(kSheetRows, [&text](int a, int b, int c) {
+    text += "f " + std::to_string(a + 1) + " " + std::to_string(b + 1) + " " +
+            std::to_string(c + 1) + "\n";
+  });
+  return text;
+}
+/// One triangle, as often as fits.
+std::string ObjOfOneTriangle() { return Repeat("v 0 0 0\nv 1 0 0\nv 0 1 0\n", "f 1 2 3\n"); }
+/// Faces with as many corners as they may have.
+std::string ObjOfRoundFaces() {
+  constexpr int kCorners = 99;
+  constexpr double kTurn_rad = 6.283185307179586;
+  std::string start;
+  std::string face = "f";
+  for (int i = 0; i < kCorners; ++i) {
+    const double angle_rad = kTurn_rad * i / kCorners;
+    start += "v " + std::to_string(std::cos(angle_rad)) + " " +
+             std::to_string(std::sin(angle_rad)) + " 0\n";
+    face += " " + std::to_string(i + 1);
+  }
+  return Repeat(start, face + "\n");
+}
+std::string LargeXyz() { return Repeat("", "0.1 0.2 0.3\n"); }
+std::string XyzOfOneCharacterNumbers() { return Repeat("", "1 2 3\n"); }
+
+std::string LargePly() {
+  std::string vertices;
+  for (int i = 0; i < kSheetRows * Sheet::kColumns; ++i) vertices += Sheet::Vertex(i) + "\n";
+  std::string faces;
+  int count = 0;
+  Sheet::ForEachTriangle(kSheetRows, [&](int a, int b, int c) {
+    faces += "3 " + std::to_string(a) + " " + std::to_string(b) + " " + std::to_string(c) + "\n";
+    ++count;
+  });
+  const std::string elements =
+      "element vertex " + std::to_string(kSheetRows * Sheet::kColumns) +
+      "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
+      std::to_string(count) + "\nproperty list uchar int vertex_indices\n";
+  return PlyHeader("ascii", elements) + vertices + faces;
+}
+/// Three bytes a vertex and seven a face: as many as fit.
+std::string PlyOfBytes() {
+  constexpr std::size_t kVertices = 150'000;
+  constexpr std::size_t kFaces = 120'000;
+  const std::string elements = "element vertex " + std::to_string(kVertices) +
+                               "\nproperty char x\nproperty char y\nproperty char z\n"
+                               "element face " +
+                               std::to_string(kFaces) +
+                               "\nproperty list uchar char vertex_indices\n";
+  std::string faces;
+  for (std::size_t i = 0; i < kFaces; ++i) faces += std::string("\3\0\1\2", 4);
+  return PlyHeader("binary_little_endian", elements) + std::string(3 * kVertices, '\1') + faces;
+}
+
+std::string LargeCsv() {
+  std::string text = "frame,timestamp,x,y,z,qx,qy,qz,qw,vx,vy,vz,wx,wy,wz\n";
+  for (int i = 0; text.size() < kMegabyte; ++i)
+    text += std::to_string(i) + "," + std::to_string(i) + ",1,1,1,0,0,0,1,1,1,1,1,1,1\n";
+  return text;
+}
+/// Two frames with as many stages as fit.
+std::string CsvOfValidStages() {
+  std::string head = "frame,timestamp,x,y,z,qx,qy,qz,qw,vx,vy,vz,wx,wy,wz";
+  std::string row = ",1,1,1,1,0,0,0,1,1,1,1,1,1,1";
+  for (int i = 0; head.size() < kMegabyte / 2; ++i) {
+    head += "," + std::to_string(i) + "_ms";
+    row += ",1";
+  }
+  return head + "\n0" + row + "\n1" + row + "\n";
+}
+
 // Short enough to be read as settings.
 std::string YamlOfBrackets() { return std::string(200'000, '['); }
 /// Each list holds the one before ten times over.
@@ -301,6 +406,26 @@ const std::vector<HostileFile>& HostileFiles() {
       {"RosCameraFileOfAnchors", Reader::kCamera, "a.yaml", YamlOfAnchors},
       {"RosCameraFileOfOneLine", Reader::kCamera, "a.yaml", LineWithoutEnd},
       {"RosCameraFileOfAHole", Reader::kCamera, "a.yaml", Nothing, kHole},
+  };
+  return files;
+}
+
+const std::vector<HostileFile>& LargeFiles() {
+  static const std::vector<HostileFile> files{
+      {"Png", Reader::kPng, "a.png", LargePng},
+      {"WidePng", Reader::kPng, "a.png", WidePng},
+      {"Obj", Reader::kObj, "a.obj", LargeObj},
+      {"ObjOfOneTriangle", Reader::kObj, "a.obj", ObjOfOneTriangle},
+      {"ObjOfRoundFaces", Reader::kObj, "a.obj", ObjOfRoundFaces},
+      {"Model", Reader::kModel, "a.obj", LargeObj},
+      {"ModelOfOneTriangle", Reader::kModel, "a.obj", ObjOfOneTriangle},
+      {"ModelOfRoundFaces", Reader::kModel, "a.obj", ObjOfRoundFaces},
+      {"Points", Reader::kModel, "a.xyz", LargeXyz},
+      {"PointsOfShortNumbers", Reader::kModel, "a.xyz", XyzOfOneCharacterNumbers},
+      {"Ply", Reader::kPly, "a.ply", LargePly},
+      {"PlyOfBytes", Reader::kPly, "a.ply", PlyOfBytes},
+      {"Csv", Reader::kCsv, "a.csv", LargeCsv},
+      {"CsvOfStages", Reader::kCsv, "a.csv", CsvOfValidStages},
   };
   return files;
 }

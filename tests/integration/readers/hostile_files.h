@@ -34,4 +34,7 @@ struct HostileFile {
 
 [[nodiscard]] const std::vector<HostileFile>& HostileFiles();
 
+/// Files that are good, and as large as a megabyte can make them.
+[[nodiscard]] const std::vector<HostileFile>& LargeFiles();
+
 }  // namespace disflow::test

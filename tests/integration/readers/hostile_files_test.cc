@@ -84,7 +84,7 @@ std::string Read(Reader reader, const fs::path& folder, const fs::path& file) {
   return {};
 }
 
-class HostileFileTest : public ScratchFolderTest, public testing::WithParamInterface<HostileFile> {
+class FileReadingTest : public ScratchFolderTest, public testing::WithParamInterface<HostileFile> {
  protected:
   /// A good sequence of two images, of which one file is then replaced.
   void WriteSequence() const {
@@ -101,20 +101,39 @@ class HostileFileTest : public ScratchFolderTest, public testing::WithParamInter
     }
     ASSERT_TRUE(writer.Finish().ok());
   }
+  LimitedOutcome WriteAndRead(const HostileFile& hostile) const {
+    const fs::path file = this->file();
+    WriteFile(file, hostile.contents());
+    if (hostile.length >= 0) fs::resize_file(file, static_cast<std::uintmax_t>(hostile.length));
+    return RunLimited([&] { return Read(hostile.reader, folder(), file); });
+  }
   [[nodiscard]] fs::path folder() const { return scratch() / "sequence"; }
+  [[nodiscard]] fs::path file() const { return folder() / GetParam().name; }
 };
 
+class HostileFileTest : public FileReadingTest {};
+class LargeFileTest : public FileReadingTest {};
+
 TEST_P(HostileFileTest, IsRefusedByNameInLittleMemoryAndTime) {
-  const HostileFile& hostile = GetParam();
   ASSERT_NO_FATAL_FAILURE(WriteSequence());
-  const fs::path file = folder() / hostile.name;
-  WriteFile(file, hostile.contents());
-  if (hostile.length >= 0) fs::resize_file(file, static_cast<std::uintmax_t>(hostile.length));
-  const LimitedOutcome outcome = RunLimited([&] { return Read(hostile.reader, folder(), file); });
+  const LimitedOutcome outcome = WriteAndRead(GetParam());
   EXPECT_EQ(outcome.signal, 0) << "ended by this signal: " << ::strsignal(outcome.signal);
-  EXPECT_EQ(outcome.message.substr(0, file.string().size()), file.string()) << "must be named";
+  EXPECT_EQ(outcome.message.substr(0, file().string().size()), file().string()) << "must be named";
   EXPECT_LT(outcome.message.size(), 1000U) << "is for people";
 }
+
+TEST_P(LargeFileTest, IsTakenInLittleMemoryAndTime) {
+  ASSERT_NO_FATAL_FAILURE(WriteSequence());
+  const LimitedOutcome outcome = WriteAndRead(GetParam());
+  ASSERT_LE(fs::file_size(file()), 1'100'000U);
+  EXPECT_EQ(outcome.signal, 0) << "ended by this signal: " << ::strsignal(outcome.signal);
+  EXPECT_EQ(outcome.message, "");
+}
+
+INSTANTIATE_TEST_SUITE_P(Readers, LargeFileTest, testing::ValuesIn(LargeFiles()),
+                         [](const testing::TestParamInfo<HostileFile>& test) {
+                           return std::string(test.param.test);
+                         });
 
 INSTANTIATE_TEST_SUITE_P(Readers, HostileFileTest, testing::ValuesIn(HostileFiles()),
                          [](const testing::TestParamInfo<HostileFile>& test) {

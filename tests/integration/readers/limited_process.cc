@@ -15,7 +15,6 @@ namespace disflow::test {
 namespace {
 
 constexpr rlim_t kMemory_bytes = rlim_t{256} << 20U;
-constexpr rlim_t kTime_s = 1;
 
 void Limit(int resource, rlim_t value) {
   const rlimit limit{.rlim_cur = value, .rlim_max = value};
@@ -28,9 +27,9 @@ rlim_t UsedMemory_bytes() {
   return pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE));
 }
 
-[[noreturn]] void RunChild(const std::function<std::string()>& function, int out) {
+[[noreturn]] void RunChild(const std::function<std::string()>& function, unsigned most_s, int out) {
   Limit(RLIMIT_CORE, 0);
-  Limit(RLIMIT_CPU, kTime_s);
+  Limit(RLIMIT_CPU, most_s);
   Limit(RLIMIT_AS, UsedMemory_bytes() + kMemory_bytes);
   std::string message;
   try {
@@ -44,12 +43,12 @@ rlim_t UsedMemory_bytes() {
 
 }  // namespace
 
-LimitedOutcome RunLimited(const std::function<std::string()>& function) {
+LimitedOutcome RunLimited(const std::function<std::string()>& function, unsigned most_s) {
   std::array<int, 2> pipe{};
   if (::pipe(pipe.data()) != 0) throw std::runtime_error("no pipe");
   const pid_t child = ::fork();
   if (child < 0) throw std::runtime_error("no process");
-  if (child == 0) RunChild(function, pipe[1]);
+  if (child == 0) RunChild(function, most_s, pipe[1]);
   ::close(pipe[1]);
   LimitedOutcome outcome;
   std::array<char, 4096> part{};

@@ -13,8 +13,9 @@ struct LimitedOutcome {
 };
 
 /// Runs a function in a process of its own that has 256 MB more than this one, and 1 s of a
-/// processor's time: far more than it needs, far less than what grows with the square of the input
-/// takes.
-[[nodiscard]] LimitedOutcome RunLimited(const std::function<std::string()>& function);
+/// processor's time, or as many as are given: far more than it needs, far less than what grows with
+/// the square of the input takes.
+[[nodiscard]] LimitedOutcome RunLimited(const std::function<std::string()>& function,
+                                        unsigned most_s = 1);
 
 }  // namespace disflow::test

@@ -90,6 +90,17 @@ TEST_F(CutRecording, NoFrameThatIsWhole_IsRefused) {
   ExpectRefused(Status::kTruncated, "before its first frame was complete");
 }
 
+/// The first pose brings a line for each frame before.
+TEST_F(CutRecording, LinesBeforeTheFirstPoseThatAreCut_CostNoMoreThanItsFrame) {
+  CutStamps(5);
+  for (const char* lines : {"", "no", "none\nnone\nnon", "none\nnone\nnone\nnone\nnone\n0 0 0.3"}) {
+    Overwrite(path() / "T_wc.txt", lines);
+    ExpectFirst(kFrames - 1, "5.float has no line in data.txt");
+  }
+  Overwrite(path() / "T_wc.txt", "none\nnone\n0 0 0 0 0 1 0\n");
+  ExpectRefused(Status::kCorrupt, "T_wc.txt");
+}
+
 TEST_F(CutRecording, PosesThatAreMissing_AreRefusedStill) {
   CutStamps(5);
   Overwrite(path() / "T_wc.txt", "0 0 0 0 0 1 0\n0 0 0 0 0 1 0\n");

@@ -167,7 +167,8 @@ TEST(MaskName, WhatIsNone_IsRefusedWithWhatItLooksLike) {
   }
   for (const char* name :
        {"", "masks", "/a/b", "file:", "v4l2:", "v4l2:video0", "v4l2:/dev/video0?format=Z16",
-        "v4l2:/dev/video0?width=4&height=3", "v4l2:/dev/video0?depth_scale=1", "libcamera:0"}) {
+        "v4l2:/dev/video0?width=4&height=3", "v4l2:/dev/video0?depth_scale=1",
+        "v4l2:/dev/video0?rectified=yes", "libcamera:0"}) {
     EXPECT_EQ(CheckMaskName(name).status, Status::kInvalidUri) << name;
   }
 }

@@ -182,6 +182,10 @@ Fault McapReader::TakeFromChunk(BagMessage& message, bool& found) {
   const auto content = cursor.TakeBytes(cursor.Take<std::uint64_t>());
   chunk_rest_ = cursor.ok() ? cursor.rest() : std::span<std::uint8_t>();
   if (!cursor.ok()) return file_.Corrupt(chunk_begin_, "a record is longer than its chunk");
+  if (opcode == 0) {
+    chunk_rest_ = {};
+    return file_.Corrupt(chunk_begin_, "a chunk holds what is no record; the rest is left out");
+  }
   return TakeRecord(opcode, content, message, found);
 }
 

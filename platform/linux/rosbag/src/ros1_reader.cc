@@ -95,6 +95,8 @@ Fault Ros1Reader::TakeFromFile(BagMessage& message, bool& found) {
   if (!fault.ok()) return fault;
   Header header;
   if (!ReadHeader(header_, header)) return file_.Corrupt(begin, "a record's header is damaged");
+  // Zeros would be records without end.
+  if (header.op == 0) return file_.Corrupt(begin, "is no record; what follows cannot be read");
   if (header.op == kBagHeader) closed_ = header.index_position != 0;
   const std::uint64_t data_at = begin + length.size() + header_bytes;
   std::uint64_t data_bytes = 0;
@@ -128,7 +130,7 @@ Fault Ros1Reader::TakeFromChunk(BagMessage& message, bool& found) {
   const auto data = cursor.TakeBytes(cursor.Take<std::uint32_t>());
   chunk_rest_ = cursor.ok() ? cursor.rest() : std::span<std::uint8_t>();
   Header header;
-  if (cursor.ok() && ReadHeader(header_bytes, header))
+  if (cursor.ok() && ReadHeader(header_bytes, header) && header.op != 0)
     return TakeRecord(header, data, message, found);
   chunk_rest_ = {};
   return file_.Corrupt(chunk_begin_, "a record in this chunk is damaged");

@@ -2,6 +2,7 @@
 #include "sqlite_reader.h"
 
 #include <string_view>
+#include <system_error>
 
 namespace disflow::posix {
 namespace {
@@ -24,6 +25,9 @@ Fault SqliteReader::DatabaseFault(Status status) const {
 
 Fault SqliteReader::Open(const std::filesystem::path& file, const std::string& topic) {
   file_ = file;
+  file_bytes_ = 0;
+  steps_ = 0;
+  read_bytes_ = 0;
   sqlite3* database = nullptr;
   const int result =
       sqlite3_open_v2(file.c_str(), &database, SQLITE_OPEN_READONLY | SQLITE_OPEN_NOMUTEX, nullptr);
@@ -33,9 +37,33 @@ Fault SqliteReader::Open(const std::filesystem::path& file, const std::string& t
   (void)sqlite3_limit(database, SQLITE_LIMIT_LENGTH, static_cast<int>(kMostMessageBytes));
   (void)sqlite3_db_config(database, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
   (void)sqlite3_db_config(database, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
+  BoundWork();
   Fault fault = CheckTables();
   if (fault.ok()) fault = FindTopic(topic);
   return fault;
+}
+
+/// Pages that name the same page again and again make rows without end of a few bytes. A row that
+/// is in the file takes ten bytes of it at least and about as many steps.
+void SqliteReader::BoundWork() {
+  constexpr int kStepsAtATime = 1000;
+  constexpr std::uint64_t kFreeSteps = 100'000;
+  constexpr std::uint64_t kStepsPerByte = 4;
+  // A recorder that was killed may leave rows in a log beside it.
+  for (const char* suffix : {"", "-wal"}) {
+    std::error_code error;
+    const std::uintmax_t bytes = std::filesystem::file_size(file_.string() + suffix, error);
+    if (!error) file_bytes_ += bytes;
+  }
+  most_steps_ = kFreeSteps + kStepsPerByte * file_bytes_;
+  sqlite3_progress_handler(
+      database_.get(), kStepsAtATime,
+      [](void* of) {
+        auto& reader = *static_cast<SqliteReader*>(of);
+        reader.steps_ += kStepsAtATime;
+        return reader.steps_ > reader.most_steps_ ? 1 : 0;
+      },
+      this);
 }
 
 Fault SqliteReader::Prepare(const char* query, Statement& statement) const {
@@ -101,6 +129,10 @@ Fault SqliteReader::Next(BagMessage& message) {
     message.type = type_;
     message.data = row_;
     read_bytes_ += row_.size();
+    if (read_bytes_ > file_bytes_) {
+      messages_.reset();
+      return MakeFault(Status::kCorrupt, "%s: its rows hold more than the file", file_.c_str());
+    }
     const Fault fault = DecompressMessage(message_, message.data, total_, read_bytes_);
     if (fault.ok()) return fault;
     return MakeFault(fault.status, "%s: a message of %s: %s", file_.c_str(), type_.c_str(),

@@ -3,6 +3,8 @@
 
 #include <sqlite3.h>
 
+#include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -29,12 +31,16 @@ class SqliteReader final : public BagReader {
   };
   using Statement = std::unique_ptr<sqlite3_stmt, Close>;
 
+  void BoundWork();
   [[nodiscard]] hal::Fault Prepare(const char* query, Statement& statement) const;
   [[nodiscard]] hal::Fault CheckTables() const;
   [[nodiscard]] hal::Fault FindTopic(const std::string& topic);
   [[nodiscard]] hal::Fault DatabaseFault(Status status) const;
 
   std::filesystem::path file_;
+  std::uint64_t file_bytes_ = 0;  ///< With its log.
+  std::uint64_t most_steps_ = 0;  ///< Of SQLite's machine.
+  std::uint64_t steps_ = 0;
   std::unique_ptr<sqlite3, Close> database_;
   Statement messages_;  ///< Of the topic; null if it is not there.
   std::string type_;
