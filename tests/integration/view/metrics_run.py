@@ -4,6 +4,7 @@ import os
 import re
 import subprocess
 import time
+import unittest
 import urllib.request
 
 PATIENCE_S = 60
@@ -44,3 +45,17 @@ def until(look, condition):
             return seen
         time.sleep(0.1)
     raise AssertionError('it never came to that')
+
+
+class MetricsTest(unittest.TestCase):
+    """All tests of a class look at one run of its `program`."""
+
+    program = None
+
+    @classmethod
+    def setUpClass(cls):
+        cls.run_of_two = MetricsRun(cls.program)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.run_of_two.end()

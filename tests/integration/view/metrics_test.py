@@ -5,7 +5,7 @@ import unittest
 import urllib.error
 import urllib.request
 
-from metrics_run import PATIENCE_S, MetricsRun, until
+from metrics_run import PATIENCE_S, MetricsTest, until
 
 try:
     from prometheus_client.parser import text_string_to_metric_families
@@ -16,14 +16,8 @@ except ImportError:
 PROGRAM = sys.argv.pop(1)
 
 
-class Metrics(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.run_of_two = MetricsRun(PROGRAM)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.run_of_two.end()
+class Metrics(MetricsTest):
+    program = PROGRAM
 
     def scrape(self):
         text, content_type = self.run_of_two.scrape()

@@ -5,7 +5,7 @@ import subprocess
 import sys
 import unittest
 
-from metrics_run import PATIENCE_S, MetricsRun, until
+from metrics_run import PATIENCE_S, MetricsTest, until
 
 PROGRAM = sys.argv.pop(1)
 PROMTOOL = shutil.which('promtool')
@@ -21,14 +21,8 @@ def faults(text):
     return f'{said}exit status {judged.returncode}' if said or judged.returncode != 0 else ''
 
 
-class Promtool(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.run_of_two = MetricsRun(PROGRAM)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.run_of_two.end()
+class Promtool(MetricsTest):
+    program = PROGRAM
 
     def text(self):
         return self.run_of_two.scrape()[0]

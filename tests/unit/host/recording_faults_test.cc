@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <csignal>
-#include <random>
 #include <utility>
 
 #include "disflow/host/simulated_shapes.h"
-#include "faulty_disk.h"
+#include "disk_fault_test.h"
 #include "recorded_sequence.h"
 
 namespace disflow::host {
@@ -22,7 +17,7 @@ using test::DiskEnd;
 using test::FaultyDisk;
 
 /// Records frames onto a disk that comes to its end, and plays what is there then.
-class FaultyRecording : public testing::Test {
+class FaultyRecording : public test::DiskFaultTest {
  protected:
   /// What had been done when a frame was complete.
   struct Done {
@@ -30,18 +25,16 @@ class FaultyRecording : public testing::Test {
     std::int64_t calls = 0;
   };
 
-  void TearDown() override { disk = {}; }
-
   /// Once with all the room there is, to know what is done when.
   void RecordWhole() {
     disk = {};
     complete_.clear();
-    ASSERT_EQ(Record(), frame_count());
+    ASSERT_EQ(Record(), frames_.size());
     writes_ = disk.writes;
   }
 
-  /// Records as disflow_track does. @return How many frames were recorded without a fault.
-  int Record() {
+  /// As disflow_track does.
+  std::size_t Record() override {
     fs::remove_all(path());
     SequenceWriter writer;
     const hal::Fault opened = writer.Open(path(), "object", false);
@@ -49,19 +42,18 @@ class FaultyRecording : public testing::Test {
       ExpectSaysFull(opened);
       return 0;
     }
-    for (int i = 0; i < frame_count(); ++i) {
-      const hal::Fault fault = AddTo(writer, frames_[static_cast<std::size_t>(i)]);
-      EXPECT_EQ(writer.frame_count(), fault.ok() ? i + 1 : i);
+    for (std::size_t i = 0; i < frames_.size(); ++i) {
+      const hal::Fault fault = AddTo(writer, frames_[i]);
+      EXPECT_EQ(static_cast<std::size_t>(writer.frame_count()), fault.ok() ? i + 1 : i);
       if (!fault.ok()) {
         ExpectSaysFull(fault);
         return i;
       }
-      if (complete_.size() <= static_cast<std::size_t>(i))
-        complete_.push_back({disk.written_bytes, disk.calls});
+      if (complete_.size() <= i) complete_.push_back({disk.written_bytes, disk.calls});
     }
     const hal::Fault finished = writer.Finish();
     if (!finished.ok()) ExpectSaysFull(finished);
-    return frame_count();
+    return frames_.size();
   }
 
   [[nodiscard]] hal::Fault AddTo(SequenceWriter& writer, CopiedFrame& copy) const {
@@ -79,26 +71,6 @@ class FaultyRecording : public testing::Test {
   [[nodiscard]] static MaskView InfraredOf(const DepthFrame& frame) {
     return {reinterpret_cast<const std::uint8_t*>(frame.depth.data), frame.depth.width_px,
             frame.depth.height_px, frame.depth.width_px};
-  }
-
-  void ExpectSaysFull(const hal::Fault& fault) const {
-    const std::string message = fault.message;
-    EXPECT_NE(message.find(path().string()), std::string::npos) << message;
-    EXPECT_NE(message.find("No space left"), std::string::npos) << message;
-  }
-
-  /// Records in another process, which is killed.
-  void RecordAndBeKilled(const FaultyDisk& faulty) {
-    const pid_t child = ::fork();
-    ASSERT_GE(child, 0);
-    if (child == 0) {
-      disk = faulty;
-      (void)Record();
-      ::_exit(0);
-    }
-    int status = 0;
-    ASSERT_EQ(::waitpid(child, &status, 0), child);
-    ASSERT_TRUE(WIFSIGNALED(status)) << "killed before it was done";
   }
 
   /// Frames that were complete when so much was done.
@@ -149,7 +121,7 @@ class FaultyRecording : public testing::Test {
     }
   }
 
-  [[nodiscard]] fs::path path() const { return dir_.path() / "recording"; }
+  [[nodiscard]] fs::path path() const override { return dir_.path() / "recording"; }
   [[nodiscard]] int frame_count() const { return static_cast<int>(frames_.size()); }
 
   std::vector<CopiedFrame> frames_;
@@ -157,9 +129,6 @@ class FaultyRecording : public testing::Test {
   bool with_truth_ = false;
   std::vector<Done> complete_;  ///< For every frame.
   std::vector<std::size_t> writes_;
-
- private:
-  apps::ScratchDir dir_;
 };
 
 /// Every place of one recording that is of a kind of its own.
@@ -212,10 +181,10 @@ TEST_F(RecordingFaults, DiskFullWithinAnyWrite_ReplaysAllFramesBefore) {
   for (const std::int64_t bytes : PlacesWithinWrites()) {
     SCOPED_TRACE("full after " + std::to_string(bytes) + " bytes");
     disk = DiskWith(bytes, DiskEnd::kFull);
-    const int recorded = Record();
+    const std::size_t recorded = Record();
     disk = {};
-    ASSERT_EQ(static_cast<std::size_t>(recorded), CompleteBefore(bytes));
-    ExpectReplay(static_cast<std::size_t>(recorded), Note::kCutShort);
+    ASSERT_EQ(recorded, CompleteBefore(bytes));
+    ExpectReplay(recorded, Note::kCutShort);
     if (HasFailure()) return;
   }
 }
@@ -264,12 +233,6 @@ TEST_F(RecordingFaults, AfterAFailure_NothingMoreIsRecordedHoweverMuchRoomThereI
 /// Recordings of any size with faults anywhere, the same ones every time.
 class RandomRecordingFaults : public FaultyRecording {
  protected:
-  /// 0 to bound - 1.
-  std::int64_t Below(std::int64_t bound) {
-    return static_cast<std::int64_t>(random_() % static_cast<std::uint64_t>(bound));
-  }
-  bool Half() { return Below(2) == 0; }
-
   /// Noise: none can be taken for another frame's.
   void MakeFrames() {
     frames_.assign(static_cast<std::size_t>(1 + Below(6)), {});
@@ -299,55 +262,22 @@ class RandomRecordingFaults : public FaultyRecording {
       copy.frame.mask = {copy.mask.data(), width, height, width};
     }
   }
-
-  /// A fault at any byte or call of the recording that was made last.
-  FaultyDisk AnyFault(const FaultyDisk& whole) {
-    constexpr std::array<DiskEnd, 3> kEnds{DiskEnd::kFull, DiskEnd::kFullForAll, DiskEnd::kKilled};
-    FaultyDisk faulty;
-    faulty.end = kEnds[static_cast<std::size_t>(Below(kEnds.size()))];
-    faulty.can_cut = Half();
-    if (Below(3) == 0) {
-      faulty.room_calls = Below(whole.calls);
-    } else {
-      faulty.room_bytes = Below(whole.written_bytes);
-    }
-    return faulty;
-  }
-
- private:
-  std::mt19937_64 random_{20261127};
 };
 
-std::string Describe(const FaultyDisk& faulty) {
-  const std::string what = faulty.end == DiskEnd::kKilled ? "killed after " : "full after ";
-  return faulty.room_calls == FaultyDisk::kEndless
-             ? what + std::to_string(faulty.room_bytes) + " bytes"
-             : what + std::to_string(faulty.room_calls) + " calls";
-}
-
 TEST_F(RandomRecordingFaults, FullOrKilledAt1000AnyPlaces_ReplaysAllFramesBefore) {
-  constexpr int kRecordings = 125;
-  constexpr int kFaults = 8;
-  for (int recording = 0; recording < kRecordings; ++recording) {
+  constexpr std::int64_t kOften = 3;  // every frame makes files
+  const auto make = [&] {
     MakeFrames();
     ASSERT_NO_FATAL_FAILURE(RecordWhole());
-    const FaultyDisk whole = std::exchange(disk, {});
+    whole_ = std::exchange(disk, {});
     ExpectReplay(frames_.size(), Note::kNothing);
-    for (int i = 0; i < kFaults; ++i) {
-      const FaultyDisk faulty = AnyFault(whole);
-      SCOPED_TRACE("recording " + std::to_string(recording) + ", " + Describe(faulty));
-      std::size_t complete = CompleteBefore({faulty.room_bytes, faulty.room_calls});
-      if (faulty.end == DiskEnd::kKilled) {
-        ASSERT_NO_FATAL_FAILURE(RecordAndBeKilled(faulty));
-      } else {
-        disk = faulty;
-        complete = static_cast<std::size_t>(Record());
-        disk = {};
-      }
-      ExpectReplay(complete, Note::kAny);
-      if (HasFailure()) return;
-    }
-  }
+  };
+  TryAThousandFaults(
+      make, kOften,
+      [&](const FaultyDisk& faulty) {
+        return CompleteBefore({faulty.room_bytes, faulty.room_calls});
+      },
+      [&](std::size_t complete) { ExpectReplay(complete, Note::kAny); });
 }
 
 }  // namespace

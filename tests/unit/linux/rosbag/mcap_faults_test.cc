@@ -1,28 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <csignal>
 #include <filesystem>
-#include <random>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "disflow/posix/rosbag/mcap_writer.h"
-#include "faulty_disk.h"
+#include "disk_fault_test.h"
 #include "mcap_reader.h"
-#include "scratch_dir.h"
 
 namespace disflow::posix {
 namespace {
 
 namespace fs = std::filesystem;
 using test::disk;
-using test::DiskEnd;
 using test::FaultyDisk;
 
 using Message = std::vector<std::uint8_t>;
@@ -30,15 +23,8 @@ using Message = std::vector<std::uint8_t>;
 using Frame = std::vector<std::pair<std::size_t, Message>>;
 
 /// Recordings of any size with faults anywhere, the same ones every time.
-class RandomMcapFaults : public testing::Test {
+class RandomMcapFaults : public test::DiskFaultTest {
  protected:
-  void TearDown() override { disk = {}; }
-
-  /// 0 to bound - 1.
-  std::int64_t Below(std::int64_t bound) {
-    return static_cast<std::int64_t>(random_() % static_cast<std::uint64_t>(bound));
-  }
-
   void MakeFrames() {
     channels_.clear();
     for (std::int64_t i = 1 + Below(3); i > 0; --i)
@@ -57,10 +43,10 @@ class RandomMcapFaults : public testing::Test {
   }
 
   /// Records as disflow_track does, a chunk per frame. @return Frames recorded without a fault.
-  std::size_t Record() {
-    fs::remove(file());
+  std::size_t Record() override {
+    fs::remove(path());
     McapWriter writer;
-    const hal::Fault opened = writer.Open(file(), channels_);
+    const hal::Fault opened = writer.Open(path(), channels_);
     if (!opened.ok()) {
       ExpectSaysFull(opened);
       return 0;
@@ -81,39 +67,6 @@ class RandomMcapFaults : public testing::Test {
     return frames_.size();
   }
 
-  void ExpectSaysFull(const hal::Fault& fault) const {
-    const std::string message = fault.message;
-    EXPECT_NE(message.find(file().string()), std::string::npos) << message;
-    EXPECT_NE(message.find("No space left"), std::string::npos) << message;
-  }
-
-  void RecordAndBeKilled(const FaultyDisk& faulty) {
-    const pid_t child = ::fork();
-    ASSERT_GE(child, 0);
-    if (child == 0) {
-      disk = faulty;
-      (void)Record();
-      ::_exit(0);
-    }
-    int status = 0;
-    ASSERT_EQ(::waitpid(child, &status, 0), child);
-    ASSERT_TRUE(WIFSIGNALED(status)) << "killed before it was done";
-  }
-
-  /// A fault at any byte, seldom one at the call that makes or closes the file.
-  FaultyDisk AnyFault(const FaultyDisk& whole) {
-    constexpr std::array<DiskEnd, 3> kEnds{DiskEnd::kFull, DiskEnd::kFullForAll, DiskEnd::kKilled};
-    FaultyDisk faulty;
-    faulty.end = kEnds[static_cast<std::size_t>(Below(kEnds.size()))];
-    faulty.can_cut = Below(2) == 0;
-    if (Below(20) == 0) {
-      faulty.room_calls = Below(whole.calls);
-    } else {
-      faulty.room_bytes = Below(whole.written_bytes);
-    }
-    return faulty;
-  }
-
   /// Frames that were complete when the program was killed there.
   [[nodiscard]] std::size_t CompleteBefore(const FaultyDisk& faulty) const {
     if (faulty.room_calls == 0) return 0;  // the file was not made
@@ -126,10 +79,10 @@ class RandomMcapFaults : public testing::Test {
   /// beyond.
   void ExpectRead(std::size_t complete, std::uintmax_t whole_bytes) {
     std::error_code error;
-    const std::uintmax_t bytes = fs::file_size(file(), error);
+    const std::uintmax_t bytes = fs::file_size(path(), error);
     for (std::size_t channel = 0; channel < channels_.size(); ++channel) {
       McapReader reader;
-      const hal::Fault opened = reader.Open(file(), channels_[channel].topic);
+      const hal::Fault opened = reader.Open(path(), channels_[channel].topic);
       if (!opened.ok()) {
         ASSERT_EQ(complete, 0U) << opened.message;
         continue;
@@ -159,50 +112,28 @@ class RandomMcapFaults : public testing::Test {
     return sent;
   }
 
-  [[nodiscard]] fs::path file() const { return dir_.path() / "run.mcap"; }
+  [[nodiscard]] fs::path path() const override { return dir_.path() / "run.mcap"; }
 
   std::vector<McapChannel> channels_;
   std::vector<Frame> frames_;
   std::vector<std::int64_t> complete_bytes_;  ///< Written when a frame was complete.
-
- private:
-  apps::ScratchDir dir_;
-  std::mt19937_64 random_{20261127};
 };
 
-std::string Describe(const FaultyDisk& faulty) {
-  const std::string what = faulty.end == DiskEnd::kKilled ? "killed after " : "full after ";
-  return faulty.room_calls == FaultyDisk::kEndless
-             ? what + std::to_string(faulty.room_bytes) + " bytes"
-             : what + std::to_string(faulty.room_calls) + " calls";
-}
-
 TEST_F(RandomMcapFaults, FullOrKilledAt1000AnyPlaces_ReadsAllFramesBefore) {
-  constexpr int kRecordings = 125;
-  constexpr int kFaults = 8;
-  for (int recording = 0; recording < kRecordings; ++recording) {
+  constexpr std::int64_t kSeldom = 20;  // three calls make a file and close it
+  std::uintmax_t whole_bytes = 0;
+  const auto make = [&] {
     MakeFrames();
     complete_bytes_.clear();
     disk = {};
     ASSERT_EQ(Record(), frames_.size());
-    const FaultyDisk whole = std::exchange(disk, {});
-    const std::uintmax_t whole_bytes = fs::file_size(file());
+    whole_ = std::exchange(disk, {});
+    whole_bytes = fs::file_size(path());
     ExpectRead(frames_.size(), whole_bytes);
-    for (int i = 0; i < kFaults; ++i) {
-      const FaultyDisk faulty = AnyFault(whole);
-      SCOPED_TRACE("recording " + std::to_string(recording) + ", " + Describe(faulty));
-      std::size_t complete = CompleteBefore(faulty);
-      if (faulty.end == DiskEnd::kKilled) {
-        ASSERT_NO_FATAL_FAILURE(RecordAndBeKilled(faulty));
-      } else {
-        disk = faulty;
-        complete = Record();
-        disk = {};
-      }
-      ExpectRead(complete, whole_bytes);
-      if (HasFailure()) return;
-    }
-  }
+  };
+  TryAThousandFaults(
+      make, kSeldom, [&](const FaultyDisk& faulty) { return CompleteBefore(faulty); },
+      [&](std::size_t complete) { ExpectRead(complete, whole_bytes); });
 }
 
 }  // namespace
