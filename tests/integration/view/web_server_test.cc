@@ -23,6 +23,8 @@ constexpr std::array<std::uint8_t, 4> kContent = {'p', 'a', 'g', 'e'};
 constexpr std::array kPage = {WebAsset{"/", "text/html; charset=utf-8", kContent}};
 constexpr unsigned char kBinary = 0x82;
 constexpr std::string_view kCommand("\x02\x00\x00\x00", 4);
+/// 1002
+constexpr std::string_view kProtocolError("\x88\x02\x03\xEA", 4);
 constexpr std::string_view kLongCommand("\x04\x00\x00\x00 of 14 byte", 14);
 
 class WebServerTest : public testing::Test {
@@ -54,12 +56,17 @@ class WebServerTest : public testing::Test {
   [[nodiscard]] bool Serves() const { return StatusOf(Get(port(), "/")) == 200; }
 
   /// What a viewer sees that has sent this after opening its WebSocket.
-  void ExpectHangUp(const std::string& frames) {
+  /// @param reason Its close frame, if that matters.
+  void ExpectHangUp(const std::string& frames, std::string_view reason = "") {
     RawClient client(port());
     client.Send(Upgrade(port()));
     ASSERT_EQ(StatusOf(client.ReadUntil("hello")), 101);
     client.Send(frames);
-    EXPECT_TRUE(client.IsHungUpOn());
+    if (reason.empty()) {
+      EXPECT_TRUE(client.IsHungUpOn());
+    } else {
+      EXPECT_NE(client.ReadUntil(reason).find(reason), std::string::npos);
+    }
     EXPECT_EQ(commands_, 0);
     EXPECT_TRUE(Serves());
   }
@@ -336,20 +343,38 @@ TEST_F(WebServerTest, OversizedControlFrame_HangsUp) {
   ExpectHangUp(std::string("\x89\xfe\x01\x00\x00\x00\x00\x00", 8) + std::string(256, 'a'));
 }
 
-// libwebsockets takes frames that are not masked and tells nobody (docs/view.md).
-TEST_F(WebServerTest, UnmaskedFrames_AreHeldToTheBoundsOfMaskedOnes) {
+// RFC 6455, 5.1.
+TEST_F(WebServerTest, UnmaskedFrames_AreHungUpOnForAProtocolError) {
   Start();
-  ExpectHangUp(UnmaskedFrame(kBinary, "abc"));
-  ExpectHangUp(UnmaskedFrame(kBinary, "abcde"));
-  ExpectHangUp(UnmaskedFrame(0x81, "abcd"));
-  ExpectHangUp(UnmaskedFrame(0x83, kCommand));
-  ExpectHangUp(UnmaskedFrame(0xF2, kCommand));
-  ExpectHangUp(UnmaskedFrame(0x02, kCommand) + UnmaskedFrame(0x80, kCommand));
+  ExpectHangUp(UnmaskedFrame(kBinary, kCommand), kProtocolError);
+  ExpectHangUp(UnmaskedFrame(kBinary, kLongCommand), kProtocolError);
+  ExpectHangUp(UnmaskedFrame(kBinary, ""), kProtocolError);
+  ExpectHangUp(UnmaskedFrame(0x81, "abcd"), kProtocolError);
+  ExpectHangUp(UnmaskedFrame(0x88, ""), kProtocolError);
+  ExpectHangUp(UnmaskedFrame(0x89, "ping"), kProtocolError);
+  ExpectHangUp(UnmaskedFrame(0x8A, ""), kProtocolError);
+  ExpectHangUp(Frame(0x89, "ping") + UnmaskedFrame(kBinary, kCommand), kProtocolError);
 }
 
-TEST_F(WebServerTest, FloodOfUnmaskedCommands_HangsUp) {
+TEST_F(WebServerTest, FramesAheadOfTheAnswer_GiveNoCommands) {
   Start();
-  ExpectFloodIsEnded(UnmaskedFrame(kBinary, kCommand));
+  for (const std::string& frame : {Frame(kBinary, kCommand), UnmaskedFrame(kBinary, kCommand)}) {
+    RawClient client(port());
+    client.Send(Upgrade(port()) + frame);
+    EXPECT_TRUE(client.IsHungUpOn());
+  }
+  EXPECT_EQ(commands_, 0);
+  EXPECT_TRUE(Serves());
+}
+
+TEST_F(WebServerTest, CloseFrame_IsAnsweredAndTheConnectionEnds) {
+  Start();
+  RawClient client(port());
+  client.Send(Upgrade(port()));
+  ASSERT_EQ(StatusOf(client.ReadUntil("hello")), 101);
+  client.Send(Frame(0x88, "\x03\xE8"));
+  EXPECT_NE(client.ReadUntil("\x88").find("\x88\x02\x03\xE8"), std::string::npos);
+  EXPECT_TRUE(client.IsClosedByServer());
 }
 
 TEST_F(WebServerTest, FloodOfCommands_HangsUp) {

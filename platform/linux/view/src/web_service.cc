@@ -13,6 +13,7 @@
 
 #include "http_answer.h"
 #include "listen_check.h"
+#include "viewer.h"
 
 namespace disflow::posix {
 namespace {
@@ -23,7 +24,6 @@ constexpr int kDownload_s = 30;
 /// More than the pieces of a request that somebody sends at once.
 constexpr int kIdleTurns = 10;
 constexpr std::chrono::milliseconds kPause{5};
-constexpr int kCommandsPerSecond = 20;
 constexpr lws_usec_t kSecond_us = 1'000'000;
 constexpr std::string_view kMetricsPath = "/metrics";
 
@@ -37,22 +37,13 @@ bool IsOutOfDescriptors() noexcept {
 
 }  // namespace
 
-/// A browser that has the page open.
-struct WebService::Viewer {
-  MessageBoard::Cursor cursor;
-  MessageBoard::Message message;  ///< Being sent.
-  std::size_t sent = 0;
-  lws_usec_t second_begin_us = 0;
-  int commands = 0;  ///< Since then.
-};
-
 WebService::WebService(WebServerOptions options, std::span<const WebAsset> assets,
                        const MessageBoard& board, WebServer::CommandHandler on_command)
     : options_(std::move(options)),
       assets_(assets),
       board_(board),
       on_command_(std::move(on_command)),
-      buffer_(LWS_PRE + kChunkBytes) {}
+      buffer_(LWS_PRE + Viewer::kChunkBytes) {}
 
 WebService::~WebService() {
   if (context_ != nullptr) lws_context_destroy(context_);
@@ -60,8 +51,11 @@ WebService::~WebService() {
 
 hal::Fault WebService::Open() {
   const auto connections = static_cast<unsigned>(options_.max_connections);
+  // A viewer has two.
+  const unsigned descriptors =
+      connections + static_cast<unsigned>(options_.max_viewers) + kOwnDescriptors;
   hal::Fault fault = CheckListening(options_.address);
-  if (fault.ok()) fault = CheckDescriptors(options_.address, connections + kOwnDescriptors);
+  if (fault.ok()) fault = CheckDescriptors(options_.address, descriptors);
   if (!fault.ok()) return fault;
   lws_set_log_level(0, nullptr);
   protocols_[0] = {"http", OnEvent, sizeof(Download), 0, 0, nullptr, 0};
@@ -89,7 +83,7 @@ hal::Fault WebService::Open() {
   info.timeout_secs_ah_idle = info.timeout_secs;
   info.keepalive_timeout = options_.request_timeout_s;
   info.retry_and_idle_policy = &retry_;
-  info.fd_limit_per_thread = connections + kOwnDescriptors;
+  info.fd_limit_per_thread = descriptors;
   context_ = lws_create_context(&info);
   if (context_ == nullptr) {
     return hal::MakeFault(Status::kIoError, "%s: cannot be listened on",
@@ -153,7 +147,7 @@ int WebService::Handle(lws* wsi, lws_callback_reasons reason, void* user, void* 
     case LWS_CALLBACK_HTTP_CONFIRM_UPGRADE:
       return AnswerUpgrade(wsi);
     case LWS_CALLBACK_ESTABLISHED:
-      static_cast<Session*>(user)->viewer = new Viewer;
+      static_cast<Session*>(user)->viewer = new Viewer(wsi, board_, on_command_);
       ++viewers_;
       return lws_callback_on_writable(wsi) < 0 ? -1 : 0;
     case LWS_CALLBACK_CLOSED:
@@ -161,10 +155,15 @@ int WebService::Handle(lws* wsi, lws_callback_reasons reason, void* user, void* 
       --viewers_;
       return 0;
     case LWS_CALLBACK_SERVER_WRITEABLE:
-      return SendNext(wsi, *static_cast<Session*>(user)->viewer);
+      return static_cast<Session*>(user)->viewer->OnWriteable(buffer_);
+    case LWS_CALLBACK_RAW_RX_FILE: {
+      const auto* const session = static_cast<const Session*>(lws_wsi_user(lws_get_parent(wsi)));
+      return session->viewer->OnInput(buffer_);
+    }
     case LWS_CALLBACK_RECEIVE:
-      return TakeCommand(wsi, *static_cast<Session*>(user)->viewer,
-                         {static_cast<const std::uint8_t*>(in), size});
+      // Sent together with the request, before there was a WebSocket. Viewer reads all else.
+      lws_close_reason(wsi, LWS_CLOSE_STATUS_PROTOCOL_ERR, nullptr, 0);
+      return -1;
     case LWS_CALLBACK_EVENT_WAIT_CANCELLED:
       (void)lws_callback_on_writable_all_protocol(context_, &protocols_[1]);
       return 0;
@@ -223,7 +222,7 @@ int WebService::ContinueDownload(lws* wsi, Download& download) {
                          : std::span(reinterpret_cast<const std::uint8_t*>(download.text->data()),
                                      download.text->size());
   const auto left = whole.subspan(download.sent);
-  const auto chunk = left.first(std::min(left.size(), kChunkBytes));
+  const auto chunk = left.first(std::min(left.size(), Viewer::kChunkBytes));
   std::memcpy(buffer_.data() + LWS_PRE, chunk.data(), chunk.size());
   download.sent += chunk.size();
   const bool is_last = chunk.size() == left.size();
@@ -256,44 +255,6 @@ int WebService::RedirectWithCookie(lws* wsi) {
       cookie_name_ + "=" + options_.token + "; Path=/; HttpOnly; SameSite=Lax";
   (void)WriteRedirect(wsi, cookie, buffer_);
   return -1;
-}
-
-int WebService::SendNext(lws* wsi, Viewer& viewer) {
-  if (viewer.message == nullptr) {
-    viewer.message = board_.Next(viewer.cursor);
-    viewer.sent = 0;
-    if (viewer.message == nullptr) return 0;
-  }
-  const auto left = std::span(*viewer.message).subspan(viewer.sent);
-  const auto chunk = left.first(std::min(left.size(), kChunkBytes));
-  std::memcpy(buffer_.data() + LWS_PRE, chunk.data(), chunk.size());
-  const bool is_last = chunk.size() == left.size();
-  const int flags = lws_write_ws_flags(LWS_WRITE_BINARY, viewer.sent == 0, is_last);
-  if (lws_write(wsi, buffer_.data() + LWS_PRE, chunk.size(),
-                static_cast<lws_write_protocol>(flags)) < static_cast<int>(chunk.size())) {
-    return -1;
-  }
-  viewer.sent += chunk.size();
-  if (is_last) viewer.message.reset();
-  return lws_callback_on_writable(wsi) < 0 ? -1 : 0;
-}
-
-int WebService::TakeCommand(lws* wsi, Viewer& viewer, std::span<const std::uint8_t> bytes) {
-  const lws_usec_t now_us = lws_now_usecs();
-  if (now_us - viewer.second_begin_us > kSecond_us) {
-    viewer.second_begin_us = now_us;
-    viewer.commands = 0;
-  }
-  const bool is_whole = lws_is_first_fragment(wsi) != 0 && lws_is_final_fragment(wsi) != 0;
-  const bool is_command =
-      bytes.size() == WebServer::kCommandBytes || bytes.size() == WebServer::kLongCommandBytes;
-  if (!is_whole || lws_frame_is_binary(wsi) == 0 || !is_command ||
-      ++viewer.commands > kCommandsPerSecond) {
-    lws_close_reason(wsi, LWS_CLOSE_STATUS_POLICY_VIOLATION, nullptr, 0);
-    return -1;
-  }
-  on_command_(bytes);
-  return 0;
 }
 
 }  // namespace disflow::posix

@@ -16,6 +16,8 @@
 
 namespace disflow::posix {
 
+class Viewer;
+
 /// The server's work on libwebsockets, without its thread.
 class WebService {
  public:
@@ -41,7 +43,6 @@ class WebService {
     std::string* text;  ///< In place of an asset; owned.
     std::size_t sent;
   };
-  struct Viewer;
   /// Of a WebSocket connection; libwebsockets zeroes it.
   struct Session {
     Viewer* viewer;
@@ -56,10 +57,6 @@ class WebService {
   [[nodiscard]] int ContinueDownload(lws* wsi, Download& download);
   [[nodiscard]] int AnswerUpgrade(lws* wsi);
   [[nodiscard]] int RedirectWithCookie(lws* wsi);
-  [[nodiscard]] int SendNext(lws* wsi, Viewer& viewer);
-  [[nodiscard]] int TakeCommand(lws* wsi, Viewer& viewer, std::span<const std::uint8_t> bytes);
-
-  static constexpr std::size_t kChunkBytes = 16384;
 
   WebServerOptions options_;
   std::span<const WebAsset> assets_;
