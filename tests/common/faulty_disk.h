@@ -26,7 +26,8 @@ struct FaultyDisk {
   std::int64_t room_calls = kEndless;  ///< That make a file or folder, or close one; kills come
                                        ///< before the next.
   DiskEnd end = DiskEnd::kFull;
-  bool can_cut = true;  ///< Files can be shortened when it is full.
+  bool can_cut = true;    ///< Files can be shortened when it is full.
+  bool can_close = true;  ///< Or what was taken before turns out not to fit when a file is closed.
   std::int64_t written_bytes = 0;
   std::int64_t calls = 0;
   std::vector<std::size_t> writes;  ///< Their sizes.

@@ -231,7 +231,7 @@ Fault McapWriter::Close() {
   if (!descriptor_.is_open()) return failure_;
   Fault fault = WriteChunk();
   if (fault.ok()) fault = WriteSummary();
-  descriptor_.Reset();
+  if (!descriptor_.Close() && fault.ok()) failure_ = fault = FileFault();
   return fault;
 }
 

@@ -119,6 +119,19 @@ class RandomMcapFaults : public test::DiskFaultTest {
   std::vector<std::int64_t> complete_bytes_;  ///< Written when a frame was complete.
 };
 
+TEST_F(RandomMcapFaults, FileThatCannotBeClosed_IsSaidOnceAndForAll) {
+  MakeFrames();
+  McapWriter writer;
+  ASSERT_TRUE(writer.Open(path(), channels_).ok());
+  writer.Add(0, 1000, frames_.front().front().second);
+  ASSERT_TRUE(writer.WriteChunk().ok());
+  disk.can_close = false;
+  const hal::Fault closed = writer.Close();
+  EXPECT_EQ(closed.status, Status::kIoError);
+  ExpectSaysFull(closed);
+  ExpectSaysFull(writer.Close());
+}
+
 TEST_F(RandomMcapFaults, FullOrKilledAt1000AnyPlaces_ReadsAllFramesBefore) {
   constexpr std::int64_t kSeldom = 20;  // three calls make a file and close it
   std::uintmax_t whole_bytes = 0;

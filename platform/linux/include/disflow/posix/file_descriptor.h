@@ -25,10 +25,12 @@ class FileDescriptor {
 
   [[nodiscard]] int get() const noexcept { return fd_; }
   [[nodiscard]] bool is_open() const noexcept { return fd_ >= 0; }
-  void Reset() noexcept {
+  void Reset() noexcept { (void)Close(); }
+  /// @return false if what was written may be lost, which some file systems say no sooner; errno
+  /// says why.
+  [[nodiscard]] bool Close() noexcept {
     // Linux frees the descriptor even if close() is interrupted: never close twice.
-    if (fd_ >= 0) ::close(fd_);
-    fd_ = -1;
+    return fd_ < 0 || ::close(std::exchange(fd_, -1)) == 0 || errno == EINTR;
   }
 
  private:

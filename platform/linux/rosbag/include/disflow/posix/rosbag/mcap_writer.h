@@ -41,6 +41,8 @@ class McapWriter {
   [[nodiscard]] hal::Fault WriteChunk();
 
   /// Writes the chunk and the index, and closes.
+  /// @return Also what the file system says no sooner than when a file is closed, as NFS does of a
+  /// full disk: then any of it may be missing.
   [[nodiscard]] hal::Fault Close();
 
   /// Of what is whole, without the index.
