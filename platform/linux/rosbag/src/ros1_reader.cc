@@ -114,7 +114,9 @@ Fault Ros1Reader::TakeFromFile(BagMessage& message, bool& found) {
 
 Fault Ros1Reader::OpenChunk(const Header& header, std::span<std::uint8_t> data) {
   if (header.size > kMostMessageBytes) return file_.Corrupt(chunk_begin_, "a chunk is too long");
-  if (!total_.Add(header.size, at_)) return file_.Corrupt(chunk_begin_, UnpackedTotal::kRefusal);
+  const std::uint64_t weight = header.compression == "bz2" ? UnpackedTotal::kBzip2Weight : 1;
+  if (!total_.Add(header.size, at_, weight))
+    return file_.Corrupt(chunk_begin_, UnpackedTotal::kRefusal);
   chunk_.resize(header.size);
   const std::string_view compression =
       header.compression == "none" ? std::string_view() : header.compression;
