@@ -1,13 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # The bill of materials that is installed beside the documents (CycloneDX, JSON): what the programs are compiled of and linked
 # with, with licences and versions. Here is what; write_bom.cmake looks for the versions, as late as the package is made.
-# tests/integration/bom compares it with the headers and libraries that really went in.
-set(disflow_bom_components "")
-
-# disflow_bom(<name> <licence> <use> <Debian package>): use is "compiled in" or "linked".
-macro(disflow_bom name licence use package)
-  list(APPEND disflow_bom_components "${name}|${licence}|${use}|${package}")
-endmacro()
+# tests/integration/bom compares it with the headers and libraries that really went in. The firmware's is in apps/disflow_firmware.
+include(${CMAKE_CURRENT_LIST_DIR}/bom_component.cmake)
 
 disflow_bom(Eigen MPL-2.0 "compiled in" libeigen3-dev)
 disflow_bom(glibc LGPL-2.1-or-later linked libc6)
@@ -38,24 +33,18 @@ endif()
 if(DISFLOW_WITH_VIEW)
   disflow_bom(libwebsockets MIT linked libwebsockets-dev)
 endif()
+if(DISFLOW_PYTHON_MODULE)
+  # Of the package python3-disflow.
+  disflow_bom(pybind11 BSD-3-Clause "compiled into the Python module" pybind11-dev)
+endif()
 
 set(disflow_bom_page_parts "")
 if(TARGET disflow_view_page)
   set(disflow_bom_page_parts "three|MIT;uplot|MIT")
 endif()
 
-include(${CMAKE_CURRENT_LIST_DIR}/bom_paths.cmake)
-file(CONFIGURE OUTPUT ${disflow_bom_settings} @ONLY CONTENT [[
-set(version "@PROJECT_VERSION@")
-set(description "@PROJECT_DESCRIPTION@")
-set(architecture "@disflow_debian_architecture@")
-set(debian_root "@DISFLOW_DEBIAN_ROOT@")
-set(components "@disflow_bom_components@")
-set(page_parts "@disflow_bom_page_parts@")
-set(page_lock "@PROJECT_SOURCE_DIR@/apps/view/package-lock.json")
-]])
-set(disflow_bom_file ${PROJECT_BINARY_DIR}/disflow.cdx.json)
-install(CODE "execute_process(COMMAND ${CMAKE_COMMAND} -DSETTINGS=${disflow_bom_settings} -DOUTPUT=${disflow_bom_file}
-  -P ${PROJECT_SOURCE_DIR}/cmake/write_bom.cmake COMMAND_ERROR_IS_FATAL ANY)"
+include(${CMAKE_CURRENT_LIST_DIR}/bom_output.cmake)
+list(JOIN disflow_write_bom " " disflow_write_bom)
+install(CODE "execute_process(COMMAND ${disflow_write_bom} COMMAND_ERROR_IS_FATAL ANY)"
   COMPONENT programs)
 install(FILES ${disflow_bom_file} DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT programs)

@@ -42,6 +42,7 @@ import json, sys
 for item in json.load(sys.stdin)["components"]:
     if all(use["value"] != "linked" for use in item["properties"]):
         print(item["name"])')"
+[ -z "$native" ] || grep -qx pybind11 <<<"$compiled_in" || die "the bill of materials does not name pybind11"
 [ -n "$compiled_in" ] || die "the bill of materials names nothing that is compiled in"
 for package in disflow libdisflow0.1 libdisflow-dev disflow-doc ${native:+python3-disflow}; do
   copyright="$(file_of "$package" "usr/share/doc/$package/copyright")" || die "$package has no copyright"
