@@ -105,6 +105,29 @@ test("Messages that are of no use cost themselves alone, and are counted", async
   assert.ok(seen.slice(-1)[0].status === "ok", JSON.stringify(seen.slice(-1)[0]));
 });
 
+test("A camera's clock that is set costs the frames that lie behind, is counted, and starts no object anew", async () => {
+  const hour = 3600000000000n;
+  const player = playerOf("set");
+  // Set forwards, back, and forwards again.
+  player.stamps = stamps.map((stamp, i) => (Math.floor(i / 10) % 2 === 1 ? stamp + hour : stamp));
+  player.sendImage = (i) => player.send(message(i, { header: headerOf(player.stamps[i]) }));
+  const { status, said } = await player.play(
+    "--sensor", sensorOf("set"), "--headless", "--csv", file("set.csv"), "--link", `dds:domain=${domain}`);
+  assert.equal(status, 0, said);
+  assert.match(said, /\b10 stamp_not_increasing/, said);
+  assert.match(said, /\b0 restarts/, said);
+  const seen = trajectory(file("set.csv"));
+  assert.equal(seen.length, stamps.length);
+  assert.deepEqual(seen.flatMap((row, i) => (row.status === "stamp_not_increasing" ? [i] : [])), [20, 21, 22, 23, 24, 25, 26, 27, 28, 29]);
+  assert.equal(new Set(seen.map((row) => row.reset_counter)).size, 1, "the object was not started anew");
+  // The ball stands still; an hour of waiting must not make it fly.
+  for (const row of seen.filter(({ vx }) => vx !== "" && vx !== "nan")) {
+    assert.ok(Math.hypot(row.vx, row.vy, row.vz) < 0.5, JSON.stringify(row));
+  }
+  // To the tracker an hour forwards is an hour without images; a ball tells too little to be found again for sure.
+  assert.notEqual(seen.at(-1).status, "stamp_not_increasing");
+});
+
 test("A driver that ends is waited for, and tracked on when it is back", async () => {
   const player = playerOf("restart");
   await player.start("--sensor", sensorOf("restart"), "--headless", "--csv", file("restart.csv"), "--link", `dds:domain=${domain}`);

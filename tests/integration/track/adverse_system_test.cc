@@ -149,6 +149,45 @@ TEST_F(ClockThatIsSet, ForwardsAndBack_SignedMessagesAreTakenByBothEnds) {
       << outcome.err;
 }
 
+/// Of frame i when the camera's clock is set forwards, back and forwards again by an hour.
+double SetStamp_s(int frame) {
+  constexpr int kFrames = 30;
+  return 1.0 + frame / 30.0 + (frame / kFrames % 2 == 1 ? 3600.0 : 0.0);
+}
+
+TEST_F(AdverseSystem, CameraClockThatIsSet_CostsTheFramesBehindAndNoObject) {
+  constexpr int kFrames = 120;
+  const Arguments sequence = {"--object", "bottle", "--frames", std::to_string(kFrames),
+                              Path("seq")};
+  ASSERT_EQ(RunSim(sequence, scratch()).exit_status, 0);
+  const auto run = [this](const char* csv) {
+    return RunTrack({"--sensor", "replay:" + Path("seq"), "--headless", "--csv", Path(csv)},
+                    scratch());
+  };
+  ASSERT_EQ(run("steady.csv").exit_status, 0);
+  std::string stamps;
+  for (int i = 0; i < kFrames; ++i)
+    stamps += std::to_string(i) + " " + std::to_string(SetStamp_s(i)) + "\n";
+  WriteFile(Path("seq/data.txt"), stamps);
+  const Outcome outcome = run("set.csv");
+  EXPECT_NE(outcome.err.find("30 stamp_not_increasing"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find(" 0 restarts"), std::string::npos) << outcome.err;
+
+  const auto steady = apps::LoadEstimates(Path("steady.csv"), kFrames).rows;
+  const auto set = apps::LoadEstimates(Path("set.csv"), kFrames).rows;
+  ASSERT_EQ(set.size(), steady.size());
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    SCOPED_TRACE(set[i].frame);
+    // From 60 to 89 the clock is an hour behind.
+    EXPECT_EQ(set[i].status == "stamp_not_increasing", set[i].frame >= 60 && set[i].frame < 90);
+    if (!set[i].has_motion) continue;
+    EXPECT_LT(set[i].twist.linear_mps.norm(), 2.0 * steady[i].twist.linear_mps.norm() + 0.3);
+    EXPECT_LT(set[i].twist.angular_rps.norm(), 2.0 * steady[i].twist.angular_rps.norm() + 1.0);
+  }
+  EXPECT_EQ(set.back().status, "ok");
+  EXPECT_EQ(set.back().state, "tracking");
+}
+
 TEST_F(AdverseSystem, StoppedAndContinued_TracksOn) {
   ChildProcess track(
       DISFLOW_TRACK,
