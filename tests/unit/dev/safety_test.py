@@ -9,6 +9,7 @@ _ROOT = pathlib.Path(__file__).resolve().parents[3]
 _DOCS = _ROOT / "docs"
 _PAGE = (_DOCS / "safety.md").read_text(encoding="utf-8")
 _RESULTS = (_DOCS / "results.md").read_text(encoding="utf-8")
+_PERFORMANCE = (_DOCS / "performance.md").read_text(encoding="utf-8")
 _MEMORY = (_DOCS / "memory.md").read_text(encoding="utf-8")
 _ID = re.compile(r"[A-Z]{1,3}-[0-9]+")
 
@@ -42,6 +43,14 @@ def instructions_of(results):
     """Of whole frames, as safety.md quotes them."""
     whole = {row[""]: row for row in table(results, "Firmware", "") if row["stage"] == "whole frame"}
     return "; ".join(f"{thing} median {whole[thing]['median']}, most {whole[thing]['most']}" for thing in ["box", "bottle"])
+
+
+def instructions_on_a_pc(performance):
+    """Of Edge and Dense, which no controller holds."""
+    rows_of = {row["sequence"]: row for row in table(performance.replace("\n# ", "\n## ", 1), "Where the time goes", "sequence")}
+    return "; ".join(f"{profile} {thing} median {row['frame']}, most {row['most after frame 5']}"
+                     for profile in ["Edge", "Dense"] for thing in ["box", "bottle"]
+                     for row in [rows_of[f"{thing}, d415, mask given, {profile}"]])
 
 
 def stack_of(memory):
@@ -116,6 +125,7 @@ class SafetyPage(unittest.TestCase):
 
     def test_instructions_are_those_of_the_results(self):
         self.assertIn(instructions_of(_RESULTS), limits(_PAGE, "TIM-1"))
+        self.assertIn(instructions_on_a_pc(_PERFORMANCE), limits(_PAGE, "TIM-1"))
 
     def test_bytes_are_those_of_the_page_on_memory(self):
         self.assertIn(stack_of(_MEMORY), limits(_PAGE, "MEM-4"))
@@ -124,6 +134,7 @@ class SafetyPage(unittest.TestCase):
     def test_a_figure_that_changes_on_the_other_page_would_be_noticed(self):
         whole = next(row for row in table(_RESULTS, "Firmware", "") if row["stage"] == "whole frame")
         self.assertNotIn(instructions_of(_RESULTS.replace(f"**{whole['most']}**", "**99.99**")), limits(_PAGE, "TIM-1"))
+        self.assertNotIn(instructions_on_a_pc(re.sub(r"(Dense \|.*)\*\*[0-9.]+\*\*", r"\1**99.99**", _PERFORMANCE)), limits(_PAGE, "TIM-1"))
         worst = re.search(r"\| stack, worst case [^|]*\|([^|]*)\|", _MEMORY).group(1).strip()
         self.assertNotIn(stack_of(_MEMORY.replace(worst, "9 999")), limits(_PAGE, "MEM-4"))
         self.assertNotIn(budgets_of(_MEMORY.replace("Dense ≤ 11 MiB", "Dense ≤ 12 MiB")), limits(_PAGE, "MEM-3"))
