@@ -68,6 +68,17 @@ class SeenFromTheSide {
   [[nodiscard]] PoseObjectFromCamera Off(float angle_rad) const {
     return TurnedAbout(axis_, angle_rad, T_oc_);
   }
+  [[nodiscard]] PoseObjectFromCamera Registered(const EdgeField& model,
+                                                const PoseObjectFromCamera& T_start) const {
+    const auto registration = std::make_unique<Registration<profiles::Edge>>();
+    const Registration<profiles::Edge>::Model no_model_edges{};
+    const Registration<profiles::Edge>::Edges no_edges{};
+    registration->SetObservations(samples_, no_edges);
+    return registration
+        ->Align(model, no_model_edges, config_, T_start, T_start, {0.003F, 0.003F},
+                config_.iterations)
+        .T_oc;
+  }
   [[nodiscard]] Search Look(const EdgeField& model, const PoseObjectFromCamera& T_oc,
                             int part) const {
     return Search(model, config_, samples_, T_oc, axis_, part);
@@ -83,7 +94,9 @@ class SeenFromTheSide {
     PoseObjectFromCamera T_found = Off(off_rad);
     for (int part = 0; part < Search::kParts; ++part) {
       Search search = Look(model, T_found, part);
-      if (search.Find() && search.Confirms(search.T_found())) T_found = search.T_found();
+      if (!search.Find()) continue;
+      const PoseObjectFromCamera T_registered = Registered(model, search.T_found());
+      if (search.Confirms(T_registered)) T_found = T_registered;
     }
     return TurnBetween(T_oc_.rotation(), T_found.rotation()).norm();
   }
@@ -111,6 +124,29 @@ TEST(TurnSearch, RightPose_IsKept) {
   const auto model = MakeModel(Mug());
   const SeenFromTheSide view(Mug(), 0.4F);
   EXPECT_FALSE(view.FindsATurn(*model, 0.0F));
+}
+
+/// Looks the same from both sides.
+Shape Oval() {
+  const auto beside = [](float x_m) {
+    return Moved(Wall(), Transform<Object, Object>(Mat3::Identity(), Vec3(x_m, 0.0F, 0.0F)));
+  };
+  return Together(beside(-0.01F), beside(0.01F));
+}
+
+TEST(TurnSearch, OvalWithASideThatWasLearntALittleOff_IsNotTurnedOverToTheOther) {
+  const auto side = [](float sign) {
+    return Seen(Oval(), [=](const Vec3& x_m) { return sign * x_m.y() > 0.0F; });
+  };
+  for (const float off_m : {0.002F, 0.003F}) {
+    const Transform<Object, Object> outwards(Mat3::Identity(), Vec3(0.0F, off_m, 0.0F));
+    const auto model = MakeModel(side(-1.0F));
+    Counters counters;
+    Fuse(Moved(side(1.0F), outwards), Observing{}, 5, *model, counters);
+    for (const float turn_rad : {0.0F, std::numbers::pi_v<float>})
+      EXPECT_FALSE(SeenFromTheSide(Oval(), turn_rad).FindsATurn(*model, 0.0F))
+          << "off by " << off_m << ", seen from " << turn_rad;
+  }
 }
 
 TEST(TurnSearch, HandleThatWasLearntAgain_WhileTheTurnWasFree_TellsNothing) {

@@ -135,6 +135,7 @@ class Tracker {
   [[nodiscard]] bool IsTurnFree(StampNs stamp_ns) const noexcept;
   [[nodiscard]] Aligned FindTurn(const DepthFrame& frame, Registration<Limits>& registration,
                                  const Aligned& aligned, RobustScale scale, float& score) noexcept;
+  void ForgetFoundTurnFree(Estimate& estimate) noexcept;
   [[nodiscard]] bool FitsModel(const Vec3& center_c) const noexcept;
   void Follow(StampNs stamp_ns, const Aligned& aligned, const PoseCovariance& covariance,
               bool found_again, Estimate& estimate) noexcept;

@@ -71,6 +71,20 @@ void Tracker<Limits>::ForgetContradicted(const DepthFrame& frame, const PoseObje
   forget();
 }
 
+/// Surface that was found while nothing told the turn lies elsewhere about the axis, once the turn
+/// is found: a mug would have two handles.
+template <CapacityProfile Limits>
+void Tracker<Limits>::ForgetFoundTurnFree(Estimate& estimate) noexcept {
+  FixedVector<Handle, kMostForgotten> forgotten;
+  do {
+    forgotten.clear();
+    field_.store().ForEach([&](Handle handle, const auto& cluster) {
+      if (cluster.turn_free && !forgotten.full()) (void)forgotten.push_back(handle);
+    });
+    for (const Handle handle : forgotten) field_.Forget(handle, estimate.rejected);
+  } while (forgotten.full());
+}
+
 template <CapacityProfile Limits>
 void Tracker<Limits>::FuseObservations(const DepthFrame& frame, Estimate& estimate) noexcept {
   const bool first = frame_index_ == 0;

@@ -87,7 +87,9 @@ typename Tracker<Limits>::Aligned Tracker<Limits>::FindTurn(const DepthFrame& fr
     return explained * (1.0F - AgreementWith(frame, T_oc).conflict());
   };
   const float turned_score = registration.ScoreOfAligned(field_, config_.registration, turned.T_oc);
-  if (plausible(turned_score, turned.T_oc) < plausible(score, aligned.T_oc)) return aligned;
+  // Where it is now it has had the time to learn what it sees, at a turn that may be wrong.
+  const float least = plausible(score, aligned.T_oc) - TurnSearch<Limits>::kScatter;
+  if (plausible(turned_score, turned.T_oc) < least) return aligned;
   score = turned_score;
   turned.turned = true;
   return turned;
@@ -197,6 +199,7 @@ void Tracker<Limits>::Follow(StampNs stamp_ns, const Aligned& aligned,
     if (aligned.turned) {
       twist_filter_.MoveTo(T_oc_.Inverse());
       pose_noise_.Restart();
+      ForgetFoundTurnFree(estimate);
     }
     twist_filter_.Update(T_oc_.Inverse(), covariance.white);
   }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <numbers>
 
@@ -15,7 +16,9 @@ namespace disflow {
 /// its axis, after nothing has told that for some time. A registration follows slopes, and a round
 /// wall has none: the turn has to be looked for. What tells it are the observed samples that look
 /// alike at few turns, and of the model only what was known before the turn was lost: what was
-/// learnt since, at a turn that may be wrong, confirms itself.
+/// learnt since, at a turn that may be wrong, confirms itself. What tells it is where there is
+/// surface, not by how little a sample misses it: each side of an oval bottle is a little off, one
+/// less than the other, and the bottle would turn over to that one.
 template <class Limits>
 class TurnSearch {
  public:
@@ -27,6 +30,8 @@ class TurnSearch {
   /// A round is through in a tenth of a second at 30 Hz.
   static constexpr int kTurnsPerFrame = 12;
   static constexpr int kParts = kTurns / kTurnsPerFrame;
+  /// Share of the samples by which wrong turns differ by chance.
+  static constexpr float kScatter = 0.02F;
 
   /// Keeps references to its arguments.
   /// @param axis Unit axis, object frame.
@@ -43,7 +48,7 @@ class TurnSearch {
     }
   }
 
-  /// Looks for the turn that explains most of what is not explained without.
+  /// Looks for the turn that has surface for most of what has none without.
   /// @return Whether there is one, beyond chance.
   [[nodiscard]] bool Find() noexcept {
     const Gains gains = Compare();
@@ -54,7 +59,7 @@ class TurnSearch {
   /// The pose that Find() found.
   [[nodiscard]] const PoseObjectFromCamera& T_found() const noexcept { return poses_[best_]; }
 
-  /// Whether it still explains more once it is registered.
+  /// Whether it still has more once it is registered.
   [[nodiscard]] bool Confirms(const PoseObjectFromCamera& T_registered) noexcept {
     poses_[best_] = T_registered;
     return Compare()[best_] > kScatter;
@@ -64,27 +69,25 @@ class TurnSearch {
   static constexpr std::size_t kPoses = kTurnsPerFrame + 1;
   using Gains = std::array<float, kPoses>;
 
-  /// Share of the samples by which what is explained differs between wrong turns by chance.
-  static constexpr float kScatter = 0.02F;
   /// A sample is distinct if it is explained at fewer of the turns at which there is surface.
   static constexpr float kDistinct = 0.4F;
   /// Share of all samples. Where there are more, no turn looks like another: the object has
   /// corners, and the slopes say it.
   static constexpr float kMostDistinct = 0.3F;
 
-  /// What share of the samples each pose explains more than the first one does, of distinct samples
-  /// alone.
+  /// For what share of the samples each pose has surface and the first one has not, of distinct
+  /// samples alone.
   [[nodiscard]] Gains Compare() const noexcept {
     Gains gains{};
     const int wanted = std::min(config_.score_points, samples_.size());
     int distinct = 0;
     for (int i = 0; i < wanted; ++i) {
-      const Gains explained = ExplainedAtEach(samples_[i * samples_.size() / wanted]);
-      if (!IsDistinct(explained)) continue;
-      ++distinct;
+      const SampleAtEach at = AtEach(samples_[i * samples_.size() / wanted]);
+      if (IsDistinct(at.explained)) ++distinct;
+      if (!IsDistinct(at.near)) continue;
       for (std::size_t k = 0; k < kPoses; ++k) {
-        gains[k] += (std::max(explained[k], 0.0F) - std::max(explained[0], 0.0F)) /
-                    static_cast<float>(wanted);
+        gains[k] +=
+            (std::max(at.near[k], 0.0F) - std::max(at.near[0], 0.0F)) / static_cast<float>(wanted);
       }
     }
     const auto most = kMostDistinct * static_cast<float>(wanted);
@@ -93,26 +96,34 @@ class TurnSearch {
 
   static constexpr float kNoSurface = -1.0F;
 
-  [[nodiscard]] Gains ExplainedAtEach(const SurfaceSample& sample) const noexcept {
-    Gains explained;
-    for (std::size_t k = 0; k < kPoses; ++k) explained[k] = ExplainedAt(poses_[k], sample);
-    return explained;
+  /// What was known says of one sample at each turn; kNoSurface where nothing was.
+  struct SampleAtEach {
+    Gains explained{};  ///< How far.
+    Gains near{};  ///< 1 where there is surface for it, 0 where that faces elsewhere or is off.
+  };
+
+  [[nodiscard]] SampleAtEach AtEach(const SurfaceSample& sample) const noexcept {
+    SampleAtEach at;
+    for (std::size_t k = 0; k < kPoses; ++k) {
+      const PoseObjectFromCamera& T_oc = poses_[k];
+      const auto match = field_.FindMatch(T_oc * sample.position_m, T_oc.rotation() * sample.normal,
+                                          config_.match_radius_m, config_.min_normal_cos);
+      if (match.normal_mismatch) continue;
+      if (!match.found || field_.store()[match.cluster].turn_free) {
+        at.explained[k] = kNoSurface;
+        at.near[k] = kNoSurface;
+        continue;
+      }
+      at.explained[k] = Explained(match.distance_m, sample.variance_m2 + match.variance_m2);
+      at.near[k] = std::abs(match.distance_m) <= config_.match_radius_m ? 1.0F : 0.0F;
+    }
+    return at;
   }
 
-  /// How far a sample is explained by what was known; kNoSurface where nothing was.
-  [[nodiscard]] float ExplainedAt(const PoseObjectFromCamera& T_oc,
-                                  const SurfaceSample& sample) const noexcept {
-    const auto match = field_.FindMatch(T_oc * sample.position_m, T_oc.rotation() * sample.normal,
-                                        config_.match_radius_m, config_.min_normal_cos);
-    if (match.normal_mismatch) return 0.0F;
-    if (!match.found || field_.store()[match.cluster].turn_free) return kNoSurface;
-    return Explained(match.distance_m, sample.variance_m2 + match.variance_m2);
-  }
-
-  [[nodiscard]] static bool IsDistinct(const Gains& explained) noexcept {
+  [[nodiscard]] static bool IsDistinct(const Gains& shares) noexcept {
     float sum = 0.0F;
     float known = 0.0F;
-    for (const float share : explained) {
+    for (const float share : shares) {
       if (share == kNoSurface) continue;
       sum += share;
       known += 1.0F;
