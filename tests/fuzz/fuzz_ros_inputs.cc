@@ -12,7 +12,6 @@
 #include "dds/dds_clock.h"
 #include "dds/dds_inputs.h"
 #include "dds/dds_query.h"
-#include "dds/dds_transforms.h"
 #include "file_in_memory.h"
 #include "fuzzed_numbers.h"
 
@@ -34,7 +33,7 @@ std::string TakeFrame(FuzzedNumbers& input) {
 }
 
 void CheckTransforms(FuzzedNumbers& input) {
-  apps::DdsTransforms transforms("map", "camera");
+  posix::RosTransforms transforms("map", "camera");
   while (!input.empty()) {
     std::string parent = TakeFrame(input);
     std::string child = TakeFrame(input);
@@ -45,7 +44,7 @@ void CheckTransforms(FuzzedNumbers& input) {
     message.transform.rotation.w = 1.0;
     const auto kind = input.Take<std::uint8_t>();
     if ((kind & 2U) != 0) message.transform = input.Take<decltype(message.transform)>();
-    transforms.Add(message, (kind & 1U) != 0);
+    transforms.Add(apps::TransformOf(message), (kind & 1U) != 0);
     if (const auto camera = transforms.Camera()) {
       // What is too far for a number is refused by whoever keeps the poses.
       hal::CameraPoseHistory history({});

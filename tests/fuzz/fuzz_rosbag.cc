@@ -38,6 +38,7 @@ void CheckFile(const std::uint8_t* data, std::size_t size) {
   options.depth_topic = "/d";
   options.info_topic = "/i";
   options.mask_topic = size % 2 == 0 ? "/m" : "";
+  options.world_frame = size % 4 < 2 ? "w" : "";
   posix::BagSensor sensor(options);
   const hal::Fault opened = sensor.Open();
   CheckMessage(opened);
@@ -54,6 +55,8 @@ void CheckFile(const std::uint8_t* data, std::size_t size) {
 
 void CheckMessages(posix::Serialization serialization, const std::uint8_t* data, std::size_t size) {
   std::vector<std::uint8_t> bytes(data, data + size);
+  std::vector<posix::RosTransform> transforms;
+  CheckMessage(ReadTransforms({serialization, "tf2_msgs/msg/TFMessage", bytes}, transforms));
   const posix::BagMessage message{serialization, "sensor_msgs/msg/Image", bytes};
   StampNs stamp_ns = 0;
   posix::RosImage image;

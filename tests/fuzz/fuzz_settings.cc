@@ -6,6 +6,7 @@
 #include "program/exit_status.h"
 #include "settings/camera_file.h"
 #include "settings/ros_camera_file.h"
+#include "settings/ros_parameter_file.h"
 #include "settings/settings.h"
 
 /// The settings file and the camera's: refused with file and words, or good enough to be used.
@@ -20,6 +21,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::Require(Validate(config).status() == Status::kOk);
   } catch (const apps::Failure& failure) {
     fuzz::Require(failure.what()[0] != '\0');
+  }
+  try {
+    Config config;
+    (void)apps::LoadRosParameters(file.path(), "disflow", config);
+  } catch (const apps::Failure& failure) {
+    fuzz::Require(std::string(failure.what()).find(file.path()) == 0);
   }
   try {
     const posix::CameraDescription camera = apps::ReadCameraFile(file.path());

@@ -10,6 +10,7 @@ import { Peer } from "./peer.js";
 import { atEnd, ddsType, domain, file, ownBin, patience, run, samplesOf, sleep, until } from "./program.js";
 
 const events = "rt/parameter_events";
+const transitions = "rt/disflow/transition_event";
 const status = "rt/disflow/box/status";
 const kNotSet = 0;
 const kInteger = 2;
@@ -27,6 +28,7 @@ let child;
 before(async () => {
   peer = await Peer.start(join(ownBin, "ros2_peer"), domain);
   await peer.do("subscribe", events, ddsType("rcl_interfaces/ParameterEvent"), "reliable", file("events"));
+  await peer.do("subscribe", transitions, ddsType("lifecycle_msgs/TransitionEvent"), "reliable", file("transitions"));
   await peer.do("subscribe", status, ddsType("diagnostic_msgs/DiagnosticArray"), "reliable", file("status"));
   child = run(
     "--sensor", "sim:box?motion=moderate&width=320&height=180&noise=white", "--rate", "realtime", "--frames", "20000", "--headless",
@@ -158,4 +160,11 @@ test("the life cycle pauses and resumes, and refuses what there is not", async (
   assert.equal(await change({ id: 0, label: "activate" }), true);
   await samplesOf(peer, status, paused + 3);
   assert.deepEqual(await stateNow(), [3, "active"]);
+  await samplesOf(peer, transitions, 2);
+  const told = decode(file("transitions"), "lifecycle_msgs/TransitionEvent");
+  assert.deepEqual(told.map(({ transition, start_state, goal_state }) => [transition, start_state, goal_state]), [
+    [{ id: 4, label: "deactivate" }, { id: 3, label: "active" }, { id: 2, label: "inactive" }],
+    [{ id: 3, label: "activate" }, { id: 2, label: "inactive" }, { id: 3, label: "active" }],
+  ]);
+  assert.ok(told[0].timestamp < told[1].timestamp && Math.abs(Number(told[1].timestamp) / 1e6 - Date.now()) < 60000);
 });

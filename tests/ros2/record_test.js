@@ -9,6 +9,7 @@ import { parse } from "@foxglove/rosmsg";
 import { MessageReader } from "@foxglove/rosmsg2-serialization";
 import { McapIndexedReader, McapStreamReader } from "@mcap/core";
 import { FileHandleReadable } from "@mcap/nodejs";
+import { points } from "./clouds.js";
 import { millimetres, png } from "./frames.js";
 import { readerOf } from "./messages.js";
 import { file, finished, run } from "./program.js";
@@ -24,6 +25,7 @@ const types = {
   "/tf": "tf2_msgs/msg/TFMessage",
   "/disflow/object/odometry": "nav_msgs/msg/Odometry",
   "/disflow/object/status": "diagnostic_msgs/msg/DiagnosticArray",
+  "/disflow/object/cloud": "sensor_msgs/msg/PointCloud2",
 };
 const nanoseconds = (stamp) => BigInt(stamp.sec) * 1000000000n + BigInt(stamp.nanosec ?? stamp.nsec);
 
@@ -71,6 +73,16 @@ function readAsStream(path) {
   return { done: stream.done(), schemas, channels, messages };
 }
 
+/** The frames that a cloud goes with: the first, and the next half a second later. */
+function cloudsIn(frames) {
+  let last;
+  return frames.filter((row) => {
+    const due = last === undefined || stampNs(row) - last >= 500000000n;
+    if (due) last = stampNs(row);
+    return due;
+  });
+}
+
 let rows;
 let good;
 let indexed;
@@ -94,6 +106,7 @@ test("Every topic is there with its type, and every frame and measured pose is i
   assert.deepEqual(counts, {
     [depth]: rows.length, "/disflow/depth/camera_info": rows.length, "/disflow/mask": rows.length,
     "/tf": good.length, "/disflow/object/odometry": good.length, "/disflow/object/status": rows.length,
+    "/disflow/object/cloud": cloudsIn(rows).length,
   });
   assert.equal(Number(indexed.reader.statistics.messageCount), indexed.messages.length);
   assert.equal(indexed.reader.chunkIndexes.length, rows.length, "a chunk per frame");
@@ -130,6 +143,62 @@ test("Poses, twists and covariances are those of the run, stamped as it was", ()
   });
   const value = (message, key) => message.status[0].values.find((pair) => pair.key === key).value;
   assert.deepEqual(topics["/disflow/object/status"].map((message) => value(message, "status")), rows.map((row) => row.status));
+});
+
+test("The model's cloud is there twice a second, near the object's origin, with normals of length 1", () => {
+  const clouds = topics["/disflow/object/cloud"];
+  assert.deepEqual(clouds.map(({ header }) => nanoseconds(header.stamp)), cloudsIn(rows).map(stampNs));
+  assert.ok(clouds.length >= 3);
+  clouds.forEach((cloud) => {
+    assert.equal(cloud.header.frame_id, "disflow/object");
+    assert.deepEqual(cloud.fields.map(({ name }) => name), ["x", "y", "z", "normal_x", "normal_y", "normal_z", "std"]);
+    assert.equal(cloud.data.length, cloud.width * cloud.point_step);
+    for (const { x, y, z, normal_x, normal_y, normal_z, std } of points(cloud)) {
+      assert.ok(Math.hypot(x, y, z) < 0.5 && Math.abs(Math.hypot(normal_x, normal_y, normal_z) - 1) < 1e-3 && std > 0);
+    }
+  });
+  assert.ok(clouds.at(-1).width > 100);
+});
+
+/** The transforms of a recording by their child frame, and its rows. */
+async function motionIn(name) {
+  const { schemas, channels, messages } = await readByIndex(file(`${name}.mcap`));
+  const transforms = decodeAll(schemas, channels, messages)["/tf"].flatMap((message) => message.transforms);
+  const motion = new Map(transforms.map(({ child_frame_id: child }) => [child, []]));
+  for (const transform of transforms) motion.get(transform.child_frame_id).push(transform);
+  return { motion, rows: trajectory(file(`${name}.csv`)) };
+}
+
+test("A camera that moves is in the recording, and played again all is where it was in the world", async () => {
+  const source = "sim:box?motion=moderate&width=160&height=120&camera=moving";
+  const outputs = (name) => [...common, "--record", file(`${name}.mcap`), "--csv", file(`${name}.csv`)];
+  await finished("--sensor", source, "--frames", String(kFrames), ...outputs("moves"));
+  const played = `rosbag:${file("moves.mcap")}?depth=${depth}&mask=/disflow/mask`;
+  await finished("--sensor", `${played}&world=world`, ...outputs("again"));
+  const [first, again] = [await motionIn("moves"), await motionIn("again")];
+  const camera = first.motion.get("camera_optical_frame");
+  assert.equal(camera.length, kFrames);
+  assert.deepEqual(camera.map(({ header }) => nanoseconds(header.stamp)), first.rows.map(stampNs));
+  assert.ok(camera.every(({ header }) => header.frame_id === "world"));
+  const moved = (i) => Math.hypot(...["x", "y", "z"].map((axis) => camera[i].transform.translation[axis] - camera[0].transform.translation[axis]));
+  assert.ok(moved(kFrames - 1) > 0.01, "it did move");
+  assert.deepEqual(again.rows.map(({ status }) => status), first.rows.map(({ status }) => status));
+  for (const [child, poses] of first.motion) {
+    assert.equal(again.motion.get(child).length, poses.length);
+    poses.forEach(({ header, transform }, i) => {
+      const other = again.motion.get(child)[i];
+      assert.deepEqual(other.header, header);
+      for (const part of ["translation", "rotation"]) {
+        for (const axis of Object.keys(transform[part])) {
+          const apart = Math.abs(other.transform[part][axis] - transform[part][axis]);
+          assert.ok(apart < 1e-6, `${child} of frame ${i}: ${part} ${axis} is off by ${apart}`);
+        }
+      }
+    });
+  }
+  const lost = await run("--sensor", `${played}&world=map`, ...common).ended;
+  assert.equal(lost.status, 3);
+  assert.match(lost.said, /do not lead from map to camera_optical_frame/);
 });
 
 test("Played again it is the same run, to the bit", async () => {

@@ -3,9 +3,12 @@
 
 #include <cstring>
 #include <deque>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "dds/dds_clock.h"
+#include "dds/dds_cloud.h"
 #include "dds/dds_motion.h"
 #include "dds/dds_status.h"
 #include "disflow/host/depth_metres.h"
@@ -21,7 +24,7 @@ namespace {
 namespace ros = posix::ros;
 
 enum Channel : std::size_t { kDepth, kInfo, kMask, kTransforms, kFirstObject };
-enum ObjectChannelOf : std::size_t { kOdometry, kStatus, kPerObject };
+enum ObjectChannelOf : std::size_t { kOdometry, kStatus, kCloud, kPerObject };
 
 template <class Message>
 posix::McapChannel ChannelOf(const std::string& topic) {
@@ -31,7 +34,10 @@ posix::McapChannel ChannelOf(const std::string& topic) {
 
 /// As the link's address says it, if there is one.
 DdsAddress AddressOf(const Options& options) {
-  return options.dds_link.empty() ? DdsAddress{} : ParseDdsAddress(options.dds_link);
+  DdsAddress address = options.dds_link.empty() ? DdsAddress{} : ParseDdsAddress(options.dds_link);
+  // Poses of the camera may come by other ways, which have no name for what they are in.
+  if (address.world_frame.empty()) address.world_frame = "world";
+  return address;
 }
 
 /// Replays keep the stamps they have, so that a recording of theirs plays as they did.
@@ -56,13 +62,19 @@ void CopyDepth(const DepthView& depth, bool as_millimetres, std::vector<std::uin
 
 /// One object's names and what its messages are made of.
 struct RecordedObject {
+  RecordedObject(DdsFrames names, const std::string& shown_name)
+      : frames(std::move(names)), status(shown_name) {}
+
   DdsFrames frames;
   DdsStatus status;
+  DdsModelCloud cloud;
 };
 
 struct BagRecording::State {
   State(const Options& options, const hal::SensorInfo& sensor)
-      : address(AddressOf(options)), clock(StampsOf(sensor)) {
+      : address(AddressOf(options)),
+        clock(StampsOf(sensor)),
+        frames{address.camera_frame, {}, address.world_frame} {
     const std::string root = "/" + address.name;
     std::vector<posix::McapChannel> channels = {
         ChannelOf<ros::Image>(root + "/depth/image_rect_raw"),
@@ -70,10 +82,11 @@ struct BagRecording::State {
         ChannelOf<ros::Image>(root + "/mask"), ChannelOf<ros::TFMessage>("/tf")};
     for (const ObjectOptions& object : options.objects) {
       const std::string name = address.name + "/" + posix::RosNamePart(object.name);
-      objects.push_back({{address.camera_frame, name, address.world_frame},
-                         DdsStatus(address.name + ": " + object.name)});
+      objects.emplace_back(DdsFrames{address.camera_frame, name, address.world_frame},
+                           address.name + ": " + object.name);
       channels.push_back(ChannelOf<ros::Odometry>("/" + name + "/odometry"));
       channels.push_back(ChannelOf<ros::DiagnosticArray>("/" + name + "/status"));
+      channels.push_back(ChannelOf<ros::PointCloud2>("/" + name + "/cloud"));
     }
     Require(writer.Open(options.record, channels), kOutputFailed);
   }
@@ -86,16 +99,20 @@ struct BagRecording::State {
   void PutFrame(const DepthFrame& frame);
   void PutImage(std::size_t channel, const char* encoding, int width_px, int height_px);
   void PutInfo(const DepthFrame& frame);
+  void PutTransform(const ros::TransformStamped& transform);
   void PutResult(std::size_t number, const FrameResult& result);
+  void PutClouds(const TrackedObjects& tracked);
 
   DdsAddress address;
   DdsClock clock;
   posix::McapWriter writer;
+  DdsFrames frames;  ///< Of the camera alone.
   std::deque<RecordedObject> objects;
-  std::int64_t ros_ns = 0;          ///< Of the frame that is being added.
-  std::vector<std::uint8_t> data;   ///< Of an image.
-  std::vector<std::uint8_t> bytes;  ///< Of a message.
-  int frames = 0;
+  std::int64_t ros_ns = 0;                ///< Of the frame that is being added.
+  std::optional<std::int64_t> clouds_ns;  ///< Of the frame whose clouds were added last.
+  std::vector<std::uint8_t> data;         ///< Of an image.
+  std::vector<std::uint8_t> bytes;        ///< Of a message.
+  int count = 0;
 };
 
 void BagRecording::State::PutFrame(const DepthFrame& frame) {
@@ -105,6 +122,9 @@ void BagRecording::State::PutFrame(const DepthFrame& frame) {
   CopyDepth(frame.depth, as_millimetres, data);
   PutImage(kDepth, as_millimetres ? "16UC1" : "32FC1", frame.depth.width_px, frame.depth.height_px);
   PutInfo(frame);
+  if (frame.has_T_wc) {
+    PutTransform(MakeRosCameraTransform(frame.T_wc, ros_ns, frames));
+  }
   if (!frame.mask.given()) return;
   data.clear();
   for (int v = 0; v < frame.mask.height_px; ++v)
@@ -155,11 +175,26 @@ void BagRecording::State::PutResult(std::size_t number, const FrameResult& resul
   // As over DDS: these messages cannot say that they hold a prediction.
   if (KindOf(estimate) != EstimateKind::kMeasured) return;
   Put(first + kOdometry, MakeRosOdometry(estimate, ros_ns, object.frames));
-  std::vector<ros::TransformStamped> transforms = {
-      MakeRosTransform(estimate, ros_ns, object.frames)};
+  PutTransform(MakeRosTransform(estimate, ros_ns, object.frames));
+}
+
+void BagRecording::State::PutTransform(const ros::TransformStamped& transform) {
+  std::vector<ros::TransformStamped> transforms = {transform};
   ros::TFMessage message{};
   posix::Lend(transforms, message.transforms);
   Put(kTransforms, message);
+}
+
+/// As often as over DDS, but by the time of the frames, so that the same run is the same recording.
+void BagRecording::State::PutClouds(const TrackedObjects& tracked) {
+  // Stamps that run backwards belong to what is played again.
+  if (clouds_ns && ros_ns >= *clouds_ns && ros_ns - *clouds_ns < DdsModelCloud::kPeriod_ns) return;
+  clouds_ns = ros_ns;
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    RecordedObject& object = objects[i];
+    Put(kFirstObject + i * kPerObject + kCloud,
+        object.cloud.Message(*tracked[i], ros_ns, object.frames));
+  }
 }
 
 BagRecording::BagRecording(const Options& options, const hal::SensorInfo& sensor)
@@ -167,21 +202,23 @@ BagRecording::BagRecording(const Options& options, const hal::SensorInfo& sensor
 
 BagRecording::~BagRecording() = default;
 
-hal::Fault BagRecording::Add(const DepthFrame* frame, std::span<const FrameResult> results) {
+hal::Fault BagRecording::Add(const DepthFrame* frame, std::span<const FrameResult> results,
+                             const TrackedObjects& objects) {
   State& state = *state_;
   if (frame != nullptr) {
     state.ros_ns = state.clock.ToRos(frame->stamp_ns);
     state.PutFrame(*frame);
   }
   for (std::size_t i = 0; i < results.size(); ++i) state.PutResult(i, results[i]);
+  if (frame != nullptr) state.PutClouds(objects);
   const hal::Fault fault = state.writer.WriteChunk();
-  if (fault.ok() && frame != nullptr) ++state.frames;
+  if (fault.ok() && frame != nullptr) ++state.count;
   return fault;
 }
 
 hal::Fault BagRecording::Finish() { return state_->writer.Close(); }
 
-int BagRecording::frame_count() const noexcept { return state_->frames; }
+int BagRecording::frame_count() const noexcept { return state_->count; }
 
 std::int64_t BagRecording::size_bytes() const noexcept {
   return static_cast<std::int64_t>(state_->writer.size_bytes());

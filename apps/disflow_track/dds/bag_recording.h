@@ -7,6 +7,7 @@
 
 #include "disflow/depth/depth_frame.h"
 #include "disflow/hal/depth_sensor.h"
+#include "objects/tracked_object.h"
 #include "program/frame_result.h"
 #include "settings/options.h"
 
@@ -29,8 +30,9 @@ class BagRecording {
 
   /// Hands a frame and its results to the kernel, all or nothing.
   /// @param frame Null if it could not be read.
-  /// @param results In the order of Options::objects.
-  [[nodiscard]] hal::Fault Add(const DepthFrame* frame, std::span<const FrameResult> results);
+  /// @param results,objects In the order of Options::objects.
+  [[nodiscard]] hal::Fault Add(const DepthFrame* frame, std::span<const FrameResult> results,
+                               const TrackedObjects& objects);
   /// Writes the index. No more can be added then.
   [[nodiscard]] hal::Fault Finish();
   [[nodiscard]] int frame_count() const noexcept;

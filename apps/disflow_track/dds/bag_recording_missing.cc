@@ -17,7 +17,10 @@ BagRecording::BagRecording(const Options& options, const hal::SensorInfo&) {
 
 BagRecording::~BagRecording() = default;
 
-hal::Fault BagRecording::Add(const DepthFrame*, std::span<const FrameResult>) { return {}; }
+hal::Fault BagRecording::Add(const DepthFrame*, std::span<const FrameResult>,
+                             const TrackedObjects&) {
+  return {};
+}
 
 hal::Fault BagRecording::Finish() { return {}; }
 

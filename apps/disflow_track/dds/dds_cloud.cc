@@ -46,15 +46,6 @@ ros::PointCloud2 DdsCloud::Message(std::int64_t ros_ns, const std::string& frame
   return message;
 }
 
-ros::PointCloud2 DdsModelCloud::Message(const ModelSnapshot& snapshot, std::int64_t ros_ns,
-                                        const DdsFrames& frames) {
-  cloud_.Clear();
-  (void)snapshot.StreamSamples(*this);
-  ros::PointCloud2 message = cloud_.Message(ros_ns, frames.object);
-  message.is_dense = true;
-  return message;
-}
-
 void DdsModelCloud::DoOnSample(const SurfaceVertex& sample, int) noexcept {
   const Vec3& x_m = sample.position_m;
   const Vec3& n = sample.normal;

@@ -31,8 +31,19 @@ class DdsCloud {
 /// The fused samples of the model, object frame: x y z, normal_x normal_y normal_z, std.
 class DdsModelCloud final : public SampleSink {
  public:
-  [[nodiscard]] posix::ros::PointCloud2 Message(const ModelSnapshot& snapshot, std::int64_t ros_ns,
-                                                const DdsFrames& frames);
+  /// From one message to the next.
+  static constexpr std::int64_t kPeriod_ns = 500'000'000;
+
+  /// @param model A ModelSnapshot or a TrackedObject.
+  template <class Model>
+  [[nodiscard]] posix::ros::PointCloud2 Message(const Model& model, std::int64_t ros_ns,
+                                                const DdsFrames& frames) {
+    cloud_.Clear();
+    (void)model.StreamSamples(*this);
+    posix::ros::PointCloud2 message = cloud_.Message(ros_ns, frames.object);
+    message.is_dense = true;
+    return message;
+  }
 
  private:
   void DoOnSample(const SurfaceVertex& sample, int observations) noexcept override;

@@ -20,6 +20,15 @@ void PutMask(const ros::Image& image, const DdsClock& clock, MaskMailbox& masks)
             is_mask ? image.height : 0, image.step, {image.data._buffer, image.data._length});
 }
 
+posix::RosTransform TransformOf(const ros::TransformStamped& message) noexcept {
+  const auto& [translation, rotation] = message.transform;
+  return {posix::TextOf(message.header.frame_id),
+          posix::TextOf(message.child_frame_id),
+          {rotation.w, rotation.x, rotation.y, rotation.z},
+          {translation.x, translation.y, translation.z},
+          posix::RosNanoseconds(message.header.stamp)};
+}
+
 DdsInputs::DdsInputs(const DdsAddress& address, posix::RosNode& node, PoseMailbox* poses,
                      MaskMailbox* masks)
     : poses_(poses), masks_(masks), transforms_(address.world_frame, address.camera_frame) {
@@ -44,7 +53,7 @@ void DdsInputs::Turn(const DdsClock& clock) {
 void DdsInputs::TakeTransforms(const DdsClock& clock) {
   const auto add = [this, &clock](const ros::TFMessage& message, bool fixed) {
     for (std::uint32_t i = 0; i < message.transforms._length; ++i) {
-      transforms_.Add(message.transforms._buffer[i], fixed);
+      transforms_.Add(TransformOf(message.transforms._buffer[i]), fixed);
     }
     // After every message: each is a moment of its own.
     const auto camera = transforms_.Camera();

@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "dds/dds_clock.h"
-#include "dds/dds_transforms.h"
 #include "disflow/posix/dds/ros_node.h"
+#include "disflow/posix/ros/ros_transforms.h"
 #include "input/mask_mailbox.h"
 #include "input/pose_mailbox.h"
 #include "settings/dds_address.h"
@@ -16,6 +16,9 @@ namespace disflow::apps {
 /// Hands a mask on. What is no mask is told as one of a wrong size, with nothing in it.
 /// @param clock Is known().
 void PutMask(const posix::ros::Image& image, const DdsClock& clock, MaskMailbox& masks);
+
+/// Points into the message.
+[[nodiscard]] posix::RosTransform TransformOf(const posix::ros::TransformStamped& message) noexcept;
 
 /// What the program takes from ROS 2: masks and the camera's pose.
 class DdsInputs {
@@ -33,7 +36,7 @@ class DdsInputs {
 
   PoseMailbox* poses_;
   MaskMailbox* masks_;
-  DdsTransforms transforms_;
+  posix::RosTransforms transforms_;
   posix::RosSubscription<posix::ros::TFMessage> tf_;
   posix::RosSubscription<posix::ros::TFMessage> tf_static_;
   posix::RosSubscription<posix::ros::Image> images_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <string_view>
+#include <utility>
 
 #include "program/exit_status.h"
 
@@ -38,6 +39,7 @@ DdsLifecycle::DdsLifecycle(const std::string& node_name, std::span<ObjectChannel
                            posix::RosNode& node)
     : channels_(channels.begin(), channels.end()) {
   const std::string prefix = "/" + node_name + "/";
+  Require(node.Advertise(prefix + "transition_event", posix::RosQos::kReliable, events_));
   Require(node.Serve(prefix + "get_state", get_state_));
   Require(node.Serve(prefix + "change_state", change_state_));
   Require(node.Serve(prefix + "get_available_states", states_));
@@ -56,6 +58,7 @@ void DdsLifecycle::Turn() {
   });
   change_state_.requests.TakeAll([this](const ros::ChangeStateRequest& request) {
     change_state_.Reply({request.header, Change(request)});
+    TellChange();  // each of several
   });
   states_.requests.TakeAll([this](const ros::GetAvailableStatesRequest& request) {
     std::vector<ros::LifecycleState> states = {StateOf(false), StateOf(true)};
@@ -71,6 +74,16 @@ void DdsLifecycle::Turn() {
     posix::Lend(transitions, response.available_transitions);
     transitions_.Reply(response);
   });
+  TellChange();
+}
+
+void DdsLifecycle::TellChange() {
+  const bool active = is_active();
+  if (active == std::exchange(told_active_, active)) return;
+  const ros::TransitionDescription made = TransitionFrom(!active);
+  // Whoever missed it asks.
+  (void)events_.Publish(
+      {static_cast<std::uint64_t>(dds_time()), made.transition, made.start_state, made.goal_state});
 }
 
 bool DdsLifecycle::Change(const ros::ChangeStateRequest& request) noexcept {

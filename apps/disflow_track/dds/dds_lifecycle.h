@@ -19,13 +19,17 @@ class DdsLifecycle {
   DdsLifecycle(const std::string& node_name, std::span<ObjectChannel* const> channels,
                posix::RosNode& node);
 
+  /// Answers what was asked, tells what has changed, whoever changed it.
   void Turn();
 
  private:
+  void TellChange();
   [[nodiscard]] bool is_active() const noexcept;
   [[nodiscard]] bool Change(const posix::ros::ChangeStateRequest& request) noexcept;
 
   std::vector<ObjectChannel*> channels_;
+  bool told_active_ = true;  ///< As was told last; a run begins so.
+  posix::RosPublisher<posix::ros::TransitionEvent> events_;
   posix::RosService<posix::ros::GetStateRequest, posix::ros::GetStateResponse> get_state_;
   posix::RosService<posix::ros::ChangeStateRequest, posix::ros::ChangeStateResponse> change_state_;
   posix::RosService<posix::ros::GetAvailableStatesRequest, posix::ros::GetAvailableStatesResponse>

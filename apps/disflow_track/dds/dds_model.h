@@ -56,7 +56,7 @@ class DdsModel {
   DdsModelCloud cloud_;
   DdsFlowCloud flow_;
   DdsSurface surface_;
-  Slow cloud_plan_{500'000'000};
+  Slow cloud_plan_{DdsModelCloud::kPeriod_ns};
   Slow flow_plan_{100'000'000};
   Slow surface_plan_{2'000'000'000};
   bool asked_ = false;  ///< A copy has been asked for and has not been used up.

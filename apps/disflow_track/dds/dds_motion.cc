@@ -26,6 +26,17 @@ ros::Pose RosPose(const Transform<FrameA, FrameB>& T) noexcept {
   return {Make3<ros::Point>(T.translation()), MakeQuaternion(T.rotation_quaternion())};
 }
 
+template <class FrameA, class FrameB>
+ros::TransformStamped RosTransform(const Transform<FrameA, FrameB>& T, std::int64_t ros_ns,
+                                   const std::string& parent, const std::string& child) noexcept {
+  ros::TransformStamped message{};
+  message.header = RosHeader(ros_ns, parent);
+  message.child_frame_id = posix::Lend(child);
+  message.transform = {Make3<ros::Vector3>(T.translation()),
+                       MakeQuaternion(T.rotation_quaternion())};
+  return message;
+}
+
 /// Row by row; both sides have (x, y, z, about x, about y, about z). From the upper triangle, as
 /// all outputs: rounding leaves the lower one a bit different, and some filters refuse that.
 void Fill(const Mat6& covariance, double (&out)[36]) noexcept {
@@ -77,12 +88,13 @@ ros::TwistWithCovarianceStamped MakeRosTwist(const Estimate& estimate, std::int6
 
 ros::TransformStamped MakeRosTransform(const Estimate& estimate, std::int64_t ros_ns,
                                        const DdsFrames& frames) noexcept {
-  ros::TransformStamped message{};
-  message.header = RosHeader(ros_ns, frames.camera);
-  message.child_frame_id = posix::Lend(frames.object);
-  message.transform = {Make3<ros::Vector3>(estimate.T_co.translation()),
-                       MakeQuaternion(estimate.T_co.rotation_quaternion())};
-  return message;
+  return RosTransform(estimate.T_co, ros_ns, frames.camera, frames.object);
+}
+
+ros::TransformStamped MakeRosCameraTransform(const Transform<World, Camera>& T_wc,
+                                             std::int64_t ros_ns,
+                                             const DdsFrames& frames) noexcept {
+  return RosTransform(T_wc, ros_ns, frames.world, frames.camera);
 }
 
 void DdsPath::Add(const Estimate& estimate, std::int64_t ros_ns, const DdsFrames& frames) {

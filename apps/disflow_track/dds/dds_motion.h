@@ -35,6 +35,10 @@ struct DdsFrames {
                                                             std::int64_t ros_ns,
                                                             const DdsFrames& frames) noexcept;
 
+/// Where the camera is in the world.
+[[nodiscard]] posix::ros::TransformStamped MakeRosCameraTransform(
+    const Transform<World, Camera>& T_wc, std::int64_t ros_ns, const DdsFrames& frames) noexcept;
+
 /// Where the object has been: in the world if the camera's pose is known, else in the camera's
 /// frame. The last kCapacity poses.
 class DdsPath {

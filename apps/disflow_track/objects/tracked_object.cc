@@ -34,6 +34,10 @@ class TrackedObjectOf final : public TrackedObject {
     return disflow::StreamFlow(tracker_, estimate, sink);
   }
 
+  int DoStreamSamples(SampleSink& sink) const noexcept override {
+    return disflow::StreamSamples(tracker_.field(), sink);
+  }
+
   Expected<DistanceQuery> DoQuery(const Vec3& x_m) noexcept override {
     return reader_.Query(tracker_.field(), tracker_.config().field, x_m);
   }

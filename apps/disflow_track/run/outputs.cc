@@ -19,13 +19,13 @@ Outputs::Outputs(const Options& options, const Options& named, const hal::Sensor
   if (rotation_.wanted()) maker_ = std::make_unique<PartMaker>(named, sensor, console);
 }
 
-void Outputs::Deliver(std::span<const FrameResult> results, const DepthFrame* frame,
-                      std::int64_t age_ns, std::int64_t now_ns) {
+void Outputs::Deliver(const TrackedObjects& objects, std::span<const FrameResult> results,
+                      const DepthFrame* frame, std::int64_t age_ns, std::int64_t now_ns) {
   telemetry_.Send(results, age_ns, now_ns);
   if (maker_) RotateIfFull(results.front().estimate.stamp_ns);
   for (std::size_t i = 0; i < objects_.size(); ++i)
     Attempt([&] { part_->WriteRow(i, results[i]); });
-  Attempt([&] { part_->Record(frame, results); });
+  Attempt([&] { part_->Record(frame, results, objects); });
 }
 
 void Outputs::RotateIfFull(StampNs stamp_ns) {

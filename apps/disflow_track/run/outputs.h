@@ -30,8 +30,8 @@ class Outputs {
           Console& console, hal::CameraPoseHistory* camera_poses);
 
   /// @param frame The input frame; null if it could not be read.
-  void Deliver(std::span<const FrameResult> results, const DepthFrame* frame, std::int64_t age_ns,
-               std::int64_t now_ns);
+  void Deliver(const TrackedObjects& objects, std::span<const FrameResult> results,
+               const DepthFrame* frame, std::int64_t age_ns, std::int64_t now_ns);
   /// The flow of the frame tracked last, for those who want it.
   void WriteFlow(const TrackedObjects& objects, std::span<const FrameResult> results);
   void WriteMeshes(const TrackedObjects& objects, double resolution_m);

@@ -184,7 +184,7 @@ class TrackingRun {
     }
     const std::int64_t now_ns = clock_.NowNs();
     const DepthFrame* const frame = readable ? &frame_ : nullptr;
-    outputs_.Deliver(results_, frame, source_.AgeNs(frame_.stamp_ns), now_ns);
+    outputs_.Deliver(objects_, results_, frame, source_.AgeNs(frame_.stamp_ns), now_ns);
     for (std::size_t i = 0; i < results_.size(); ++i) {
       objects_[i]->ShowToListeners(results_[i], frame);
       reports_[i].Add(results_[i]);

@@ -43,9 +43,10 @@ void RunPart::WriteRow(std::size_t object, const FrameResult& result) {
                                    "; it ends before frame " + std::to_string(result.frame));
 }
 
-void RunPart::Record(const DepthFrame* frame, std::span<const FrameResult> results) {
+void RunPart::Record(const DepthFrame* frame, std::span<const FrameResult> results,
+                     const TrackedObjects& objects) {
   if (!recording_ && !bag_) return;
-  const hal::Fault fault = bag_ ? bag_->Add(frame, results) : AddToSequence(frame);
+  const hal::Fault fault = bag_ ? bag_->Add(frame, results, objects) : AddToSequence(frame);
   if (fault.ok()) return;
   failed_ = true;
   const std::string end = std::string(fault.message) + "; nothing more is recorded after " +

@@ -31,7 +31,8 @@ class RunPart {
   /// A row of an object's trajectory. @throws Failure kOutputFailed, once.
   void WriteRow(std::size_t object, const FrameResult& result);
   /// @param frame Null if it could not be read. @throws Failure kOutputFailed, once.
-  void Record(const DepthFrame* frame, std::span<const FrameResult> results);
+  void Record(const DepthFrame* frame, std::span<const FrameResult> results,
+              const TrackedObjects& objects);
 
   /// Whether something of it could not be written.
   [[nodiscard]] bool has_failed() const noexcept { return failed_; }

@@ -48,7 +48,8 @@ constexpr const char* kLinksAndStatus =
     "only a prediction. CSV and mesh share one object frame. {n} in the names of --csv, --mesh,\n"
     "--mesh-picture, --flow and --record stands for a number, one more than the highest that is\n"
     "there: run-{n}.csv. SIGINT and SIGTERM end the run as if the input had ended, a second one\n"
-    "ends the program at once. SIGHUP reads --config again (docs/deploy.md); without one it ends\n"
+    "ends the program at once. SIGHUP reads the settings file again (docs/deploy.md); without one "
+    "it ends\n"
     "the run.\n"
     "\n"
     "Exit status: 0 done, 2 wrong usage or settings, 3 the sensor failed, a file of the sequence\n"
@@ -88,6 +89,11 @@ void AddInput(CLI::App& app, Options& options, SettingSources& settings) {
          "Settings, TOML; --print-config writes one. Its section [run] may hold any of these "
          "options; the command line wins")
       ->type_name("FILE");
+  app.add_option("--params-file", settings.parameter_file,
+                 "The same as parameters of ROS 2, YAML, in place of --config (docs/ros2.md)")
+      ->type_name("FILE");
+  app.add_flag_callback(
+      "--ros-args", [] {}, "Nothing: ROS puts it ahead of --params-file");
   app.add_option("--set", settings.assignments,
                  "One setting, e.g. registration.iterations=10; wins over --config")
       ->type_name("NAME=VALUE")

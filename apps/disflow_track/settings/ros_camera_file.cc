@@ -11,13 +11,10 @@
 #include "settings/camera_file.h"
 #include "settings/refusal.h"
 #include "settings/settings_text.h"
+#include "settings/yaml_place.h"
 
 namespace disflow::apps {
 namespace {
-
-std::string At(const std::string& path, const YAML::Mark& mark) {
-  return mark.is_null() ? path + ": " : path + ":" + std::to_string(mark.line + 1) + ": ";
-}
 
 YAML::Node Find(const std::string& path, const YAML::Node& parent, const char* key) {
   const YAML::Node node = parent.IsMap() ? parent[key] : YAML::Node(YAML::NodeType::Undefined);
@@ -36,14 +33,15 @@ double Number(const std::string& path, const YAML::Node& node, const char* key, 
   const bool is_number = node.IsScalar() && YAML::convert<double>::decode(node, value);
   // Written so that NaN fails.
   if (is_number && value >= min && value <= max) return value;
-  Refuse(At(path, node.Mark()),
+  Refuse(YamlPlace(path, node.Mark()),
          std::string(key) + " is not a number from " + NumberText(min) + " to " + NumberText(max));
 }
 
 int Side(const std::string& path, const YAML::Node& file, const char* key) {
   const YAML::Node node = Find(path, file, key);
   const double value = Number(path, node, key, 1.0, posix::CameraAddress::kMaxSide_px);
-  if (value != std::floor(value)) Refuse(At(path, node.Mark()), std::string(key) + " is not whole");
+  if (value != std::floor(value))
+    Refuse(YamlPlace(path, node.Mark()), std::string(key) + " is not whole");
   return static_cast<int>(value);
 }
 
@@ -52,7 +50,7 @@ std::vector<double> Numbers(const std::string& path, const YAML::Node& matrix, c
                             double most) {
   const YAML::Node data = matrix.IsMap() ? Find(path, matrix, "data") : matrix;
   if (!data.IsSequence())
-    Refuse(At(path, data.Mark()), std::string(key) + " holds no list of numbers");
+    Refuse(YamlPlace(path, data.Mark()), std::string(key) + " holds no list of numbers");
   std::vector<double> values;
   for (const YAML::Node& entry : data) values.push_back(Number(path, entry, key, -most, most));
   return values;
@@ -65,7 +63,7 @@ void RefuseDistortion(const std::string& path, const YAML::Node& file) {
   for (const double value : Numbers(path, node, "distortion_coefficients", kAny)) {
     if (value == 0.0) continue;
     Refuse(
-        At(path, node.Mark()),
+        YamlPlace(path, node.Mark()),
         "the camera is distorted, and rectified images are needed: if the driver rectifies them, "
         "add rectified=yes to the address, and projection_matrix counts; if image_proc does, take "
         "them from ROS by --sensor dds:");
@@ -84,10 +82,11 @@ PinholeCamera ReadPinhole(const std::string& path, const YAML::Node& matrix, con
                           at(2, 0) == 0.0 && at(2, 1) == 0.0 && at(2, 2) == 1.0 &&
                           is_focal(at(0, 0)) && is_focal(at(1, 1));
   if (!is_pinhole) {
-    Refuse(At(path, matrix.Mark()), std::string(key) +
-                                        " is not fx 0 cx, 0 fy cy, 0 0 1 with focal lengths from 1 "
-                                        "pixel to " +
-                                        NumberText(kMaxIntrinsic_px));
+    Refuse(YamlPlace(path, matrix.Mark()),
+           std::string(key) +
+               " is not fx 0 cx, 0 fy cy, 0 0 1 with focal lengths from 1 "
+               "pixel to " +
+               NumberText(kMaxIntrinsic_px));
   }
   return {static_cast<float>(at(0, 0)), static_cast<float>(at(1, 1)), static_cast<float>(at(0, 2)),
           static_cast<float>(at(1, 2))};
@@ -101,7 +100,7 @@ PinholeCamera ReadCamera(const std::string& path, const YAML::Node& file, bool r
   // poses are in the frame of the eye whose file this is, which it does not move.
   const PinholeCamera camera = ReadPinhole(path, matrix, key, rectified ? 4 : 3);
   if (!camera.CanImage(size.width_px, size.height_px)) {
-    Refuse(At(path, matrix.Mark()),
+    Refuse(YamlPlace(path, matrix.Mark()),
            std::string(key) + " is of no camera with " + std::to_string(size.width_px) + "x" +
                std::to_string(size.height_px) + " pixels: its centre is too far off");
   }
@@ -127,7 +126,7 @@ posix::CameraDescription ReadRosCameraFile(const std::string& path, bool rectifi
     if (!rectified) RefuseDistortion(path, file);
     return description;
   } catch (const YAML::Exception& error) {
-    Refuse(At(path, error.mark), error.msg);
+    Refuse(YamlPlace(path, error.mark), error.msg);
   }
 }
 

@@ -10,6 +10,8 @@ inline constexpr const char* kRosbagHelp =
     "or the folder of ros2 bag\n"
     "               record. Options: info=TOPIC (CameraInfo; camera_info beside the images), "
     "mask=TOPIC (mono8),\n"
+    "               world=FRAME (the camera's pose in it, from /tf), camera=FRAME (its own; by the "
+    "images),\n"
     "               rectified=yes|no (by the topic's name), scale=M (of 16-bit images), first=N, "
     "count=N\n";
 

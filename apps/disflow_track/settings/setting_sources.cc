@@ -6,14 +6,17 @@
 #include <array>
 
 #include "program/exit_status.h"
+#include "settings/dds_address.h"
+#include "settings/ros_parameter_file.h"
 #include "settings/settings.h"
 
 namespace disflow::apps {
 namespace {
 
 bool MayStandInAFile(const std::string& option) {
-  constexpr std::array kOnlyTyped = {"--config",       "--help",         "--version",
-                                     "--list-sensors", "--print-config", "--print-settings-table"};
+  constexpr std::array kOnlyTyped = {
+      "--config",  "--params-file",  "--ros-args",     "--help",
+      "--version", "--list-sensors", "--print-config", "--print-settings-table"};
   return std::find(kOnlyTyped.begin(), kOnlyTyped.end(), option) == kOnlyTyped.end();
 }
 
@@ -63,14 +66,47 @@ void ApplyTyped(const SettingSources& settings, Config& config) {
   for (const std::string& assignment : settings.assignments) ApplySetting(assignment, config);
 }
 
+/// As it was typed: what a file says comes too late for that.
+std::string NodeName(const Options& options) {
+  DdsNodeAddress address;
+  if (IsDdsAddress(options.sensor)) address = ParseDdsSensorAddress(options.sensor);
+  for (const std::string& link : options.links)
+    if (IsDdsAddress(link)) address = ParseDdsAddress(link);
+  return address.name;
+}
+
+/// What the file says of single objects, now that they are known.
+void ApplyNamed(const SettingSources& settings, const std::vector<NamedSetting>& named,
+                std::vector<ObjectOptions>& objects) {
+  for (const NamedSetting& setting : named) {
+    const auto object = std::find_if(
+        objects.begin(), objects.end(),
+        [&setting](const ObjectOptions& candidate) { return candidate.name == setting.object; });
+    if (object == objects.end()) {
+      throw Failure(kWrongUsage, setting.where + "there is no object " + setting.object + " for " +
+                                     setting.name);
+    }
+    AssignSetting(setting.where, setting.name, setting.number, object->config);
+  }
+  if (named.empty()) return;
+  for (ObjectOptions& object : objects) {
+    ApplyTyped(settings, object.config);
+    CheckSettings(object.config);
+  }
+}
+
 }  // namespace
 
 void ReadSettings(CLI::App& app, SettingSources& settings, Options& options) {
   SettingsFile file;
-  if (!settings.file.empty()) {
-    file = LoadSettings(settings.file, options.config);
+  const bool of_ros = !settings.parameter_file.empty();
+  if (of_ros && !settings.file.empty())
+    throw Failure(kWrongUsage, "settings come from --config or from --params-file, not both");
+  if (of_ros || !settings.file.empty()) {
+    file = of_ros ? LoadRosParameters(settings.parameter_file, NodeName(options), options.config)
+                  : LoadSettings(settings.file, options.config);
     for (const RunSetting& setting : file.run) ApplyRunSetting(app, setting);
-    options.settings_file = settings.file;
+    options.settings_file = of_ros ? settings.parameter_file : settings.file;
     options.file = file;
   }
   ApplyTyped(settings, options.config);
@@ -85,6 +121,7 @@ void ReadSettings(CLI::App& app, SettingSources& settings, Options& options) {
                   "name=box,seed=320:180");
   }
   options.objects = MakeObjects(file.objects, settings.common, options.config);
+  ApplyNamed(settings, file.named, options.objects);
 }
 
 }  // namespace disflow::apps

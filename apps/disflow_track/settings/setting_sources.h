@@ -13,6 +13,7 @@ namespace disflow::apps {
 /// What was typed about settings and objects, and the file that says more.
 struct SettingSources {
   std::string file;
+  std::string parameter_file;  ///< Of ROS, in place of the other.
   std::vector<std::string> assignments;
   // Short forms of settings.
   std::vector<int> roi_px;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "disflow/config.h"
+#include "settings/setting_value.h"
 
 namespace disflow::apps {
 
@@ -26,9 +27,18 @@ struct ObjectTable {
   Config config;                 ///< The file's, then the sections of this object.
 };
 
+/// A setting of one object, which stands elsewhere: a parameter of ROS.
+struct NamedSetting {
+  std::string where;
+  std::string object;
+  std::string name;  ///< "registration.iterations".
+  SettingNumber number;
+};
+
 struct SettingsFile {
   std::vector<RunSetting> run;
   std::vector<ObjectTable> objects;
+  std::vector<NamedSetting> named;  ///< In the order in which they hold.
 };
 
 }  // namespace disflow::apps

@@ -3,45 +3,14 @@
 #include <charconv>
 #include <cmath>
 #include <sstream>
-#include <type_traits>
 
-#include "disflow/config_fields.h"
 #include "settings/refusal.h"
+#include "settings/setting_value.h"
 #include "settings/settings.h"
 #include "settings/toml_file.h"
 
 namespace disflow::apps {
 namespace {
-
-struct Number {
-  double value = 0.0;
-  bool is_integer = false;
-  std::string text;  ///< As the person wrote it.
-};
-
-/// @param where Ahead of every message, e.g. "run.toml:12: ".
-void Assign(const std::string& where, std::string_view name, const Number& number, Config& config) {
-  bool found = false;
-  VisitFields(config, [&](const auto& field) {
-    if (name != field.name) return;
-    found = true;
-    using Value = std::remove_reference_t<decltype(field.value)>;
-    const std::string range =
-        "allowed: " + NumberText(field.min) + " to " + NumberText(field.max) + " " + field.unit;
-    if (std::is_integral_v<Value> && !number.is_integer) {
-      Refuse(where, std::string(name) + " = " + number.text + " is not a whole number; " + range);
-    }
-    // Written so that NaN is refused too.
-    if (!(number.value >= field.min && number.value <= field.max)) {
-      Refuse(where, std::string(name) + " = " + number.text + " is out of range; " + range);
-    }
-    field.value = static_cast<Value>(number.value);
-  });
-  if (!found) {
-    Refuse(where,
-           "there is no setting " + std::string(name) + "; disflow_track --print-config lists all");
-  }
-}
 
 void AssignNode(const std::string& file, const std::string& name, const toml::node& node,
                 Config& config) {
@@ -49,10 +18,10 @@ void AssignNode(const std::string& file, const std::string& name, const toml::no
   std::ostringstream text;
   if (const auto* integer = node.as_integer()) {
     text << integer->get();
-    Assign(where, name, {static_cast<double>(integer->get()), true, text.str()}, config);
+    AssignSetting(where, name, {static_cast<double>(integer->get()), true, text.str()}, config);
   } else if (const auto* floating = node.as_floating_point()) {
     text << floating->get();
-    Assign(where, name, {floating->get(), false, text.str()}, config);
+    AssignSetting(where, name, {floating->get(), false, text.str()}, config);
   } else {
     text << node.type();
     Refuse(where, name + " is a " + text.str() + ", a number is needed");
@@ -158,11 +127,11 @@ void ApplySetting(std::string_view assignment, Config& config) {
   }
   const std::string_view text = assignment.substr(equals + 1);
   const char* const end = text.data() + text.size();
-  Number number{.text = std::string(text)};
+  SettingNumber number{.text = std::string(text)};
   const auto [stop, error] = std::from_chars(text.data(), end, number.value);
   if (error != std::errc{} || stop != end) Refuse(where, "'" + number.text + "' is not a number");
   number.is_integer = std::trunc(number.value) == number.value;
-  Assign(where, assignment.substr(0, equals), number, config);
+  AssignSetting(where, assignment.substr(0, equals), number, config);
 }
 
 void CheckSettings(const Config& config) {

@@ -72,6 +72,12 @@ class CdrBuffer {
     Put(pair.key);
     Put(pair.value);
   }
+  void Put(const ros::PointField& field) {
+    Put(field.name);
+    Put(field.offset);
+    Put(field.datatype);
+    Put(field.count);
+  }
   void Put(const ros::DiagnosticStatus& status) {
     Put(status.level);
     Put(status.name);
@@ -142,6 +148,19 @@ void SerializeCdr(const ros::DiagnosticArray& message, std::vector<std::uint8_t>
   CdrBuffer cdr(bytes);
   cdr.Put(message.header);
   cdr.PutSequence(message.status);
+}
+
+void SerializeCdr(const ros::PointCloud2& message, std::vector<std::uint8_t>& bytes) {
+  CdrBuffer cdr(bytes);
+  cdr.Put(message.header);
+  cdr.Put(message.height);
+  cdr.Put(message.width);
+  cdr.PutSequence(message.fields);
+  cdr.Put(message.is_bigendian);
+  cdr.Put(message.point_step);
+  cdr.Put(message.row_step);
+  cdr.PutBytes(message.data._buffer, message.data._length);
+  cdr.Put(message.is_dense);
 }
 
 }  // namespace disflow::posix

@@ -68,6 +68,18 @@ RosType RosTypeOf<ros::TFMessage>() noexcept {
 }
 
 template <>
+RosType RosTypeOf<ros::PointCloud2>() noexcept {
+  return {"sensor_msgs/msg/PointCloud2",
+          "std_msgs/Header header\nuint32 height\nuint32 width\nsensor_msgs/PointField[] fields\n"
+          "bool is_bigendian\nuint32 point_step\nuint32 row_step\nuint8[] data\nbool is_dense\n"
+          DISFLOW_TYPE("sensor_msgs/PointField")
+          "uint8 INT8=1\nuint8 UINT8=2\nuint8 INT16=3\nuint8 UINT16=4\n"
+          "uint8 INT32=5\nuint8 UINT32=6\nuint8 FLOAT32=7\nuint8 FLOAT64=8\n"
+          "string name\nuint32 offset\nuint8 datatype\nuint32 count\n"
+          DISFLOW_HEADER};
+}
+
+template <>
 RosType RosTypeOf<ros::DiagnosticArray>() noexcept {
   return {"diagnostic_msgs/msg/DiagnosticArray",
           "std_msgs/Header header\ndiagnostic_msgs/DiagnosticStatus[] status\n"

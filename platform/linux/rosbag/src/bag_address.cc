@@ -5,6 +5,7 @@
 
 #include "disflow/host/option_value.h"
 #include "disflow/posix/ros/ros_camera_info.h"
+#include "disflow/posix/ros/ros_transforms.h"
 #include "disflow/posix/shown_text.h"
 
 namespace disflow::posix {
@@ -27,10 +28,21 @@ Fault ParseTopic(std::string_view key, std::string_view value, std::string& topi
   return {};
 }
 
+Fault ParseFrame(std::string_view key, std::string_view value, std::string& frame) {
+  if (value.empty() || value.size() > RosTransforms::kMaxName || value.front() == '/') {
+    return MakeFault(Status::kInvalidUri, "%.*s=%s is no frame of /tf, e.g. map",
+                     static_cast<int>(key.size()), key.data(), ShownText(value, 64).c_str());
+  }
+  frame = value;
+  return {};
+}
+
 Fault SetOption(std::string_view key, std::string_view value, BagOptions& options) {
   if (key == "depth") return ParseTopic(key, value, options.depth_topic);
   if (key == "info") return ParseTopic(key, value, options.info_topic);
   if (key == "mask") return ParseTopic(key, value, options.mask_topic);
+  if (key == "world") return ParseFrame(key, value, options.world_frame);
+  if (key == "camera") return ParseFrame(key, value, options.camera_frame);
   if (key == "rectified") {
     return host::ParseChoice(key, value, std::span<const Choice<bool>>(kYesOrNo),
                              options.rectified.emplace());
@@ -39,8 +51,8 @@ Fault SetOption(std::string_view key, std::string_view value, BagOptions& option
   if (key == "first") return host::ParseNumber(key, value, 0, kMaxFrames, options.first);
   if (key == "count") return host::ParseNumber(key, value, 1, kMaxFrames, options.count);
   return MakeFault(Status::kInvalidUri,
-                   "rosbag has no option %s; known: depth, info, mask, rectified, scale, first, "
-                   "count",
+                   "rosbag has no option %s; known: depth, info, mask, world, camera, rectified, "
+                   "scale, first, count",
                    ShownText(key, 64).c_str());
 }
 
@@ -70,6 +82,11 @@ Fault ParseBagUri(const host::Uri& uri, BagOptions& options) {
     return MakeFault(Status::kInvalidUri,
                      "depth= is missing; write rosbag:FILE?depth=TOPIC, e.g. "
                      "depth=/camera/depth/image_rect_raw (ros2 bag info lists the topics)");
+  }
+  if (!parsed.camera_frame.empty() && parsed.world_frame.empty()) {
+    return MakeFault(
+        Status::kInvalidUri,
+        "camera= is for the camera's poses; write world=FRAME as well, e.g. world=map");
   }
   AddDefaults(parsed);
   options = parsed;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "camera_messages.h"
+#include "camera_path.h"
 #include "disflow/host/image_limits.h"
 #include "disflow/posix/shown_text.h"
 #include "disflow/saturating.h"
@@ -70,6 +71,7 @@ struct BagSensor::State {
   [[nodiscard]] Fault Accompany(DepthFrame& frame);
   [[nodiscard]] Fault ReadInfo(const BagMessage& message, StampNs& stamp_ns,
                                RosIntrinsics& intrinsics) const;
+  [[nodiscard]] bool has_path() const noexcept { return !options.world_frame.empty(); }
   [[nodiscard]] bool has_masks() const noexcept { return !options.mask_topic.empty(); }
 
   const BagOptions& options;
@@ -78,10 +80,12 @@ struct BagSensor::State {
   TopicStream depth;
   FollowedTopic<RosIntrinsics> infos;
   FollowedTopic<Mask> masks;
+  CameraPath path;
   RosDepthDecoder decoder;
   std::vector<std::uint8_t> image;  ///< Where its pixels are aligned.
   std::vector<std::uint8_t> no_mask;
-  int taken = 0;  ///< Images, those left out included.
+  std::string camera_frame;  ///< As the first good image says.
+  int taken = 0;             ///< Images, those left out included.
   int width_px = 0;
   int height_px = 0;
   hal::SensorCounters counters;
@@ -109,8 +113,10 @@ Fault BagSensor::State::Restart() {
           return ReadInfo(message, stamp_ns, intrinsics);
         });
   }
-  if (!fault.ok() || !has_masks()) return fault;
-  return masks.stream.Open(files, options.mask_topic);
+  if (fault.ok() && has_masks()) fault = masks.stream.Open(files, options.mask_topic);
+  // What the camera's frame is called is not known before the first image.
+  if (fault.ok() && has_path() && width_px > 0) fault = path.Restart(files);
+  return fault;
 }
 
 /// The first good image says how large all are.
@@ -138,6 +144,11 @@ Fault BagSensor::State::FindSize() {
     fault = masks.BeginWithFirst(ReadMask);
     if (!fault.ok()) return fault;
   }
+  if (has_path()) {
+    fault = path.Open(files, options.world_frame,
+                      options.camera_frame.empty() ? camera_frame : options.camera_frame);
+    if (!fault.ok()) return fault;
+  }
   return Restart();
 }
 
@@ -152,6 +163,7 @@ Fault BagSensor::State::Next(DepthFrame& frame) {
     wanted = taken++ >= options.first;
   }
   frame = DepthFrame{};
+  if (width_px == 0) camera_frame = ReadFrameName(message);
   Fault fault = Decode(message, frame);
   if (fault.ok()) fault = ApplyUnit(frame.depth);
   if (fault.ok()) fault = Accompany(frame);
@@ -215,7 +227,8 @@ Fault BagSensor::State::Accompany(DepthFrame& frame) {
                      intrinsics.width_px, intrinsics.height_px);
   }
   frame.camera = intrinsics.camera;
-  if (!has_masks() || no_mask.empty()) return {};
+  if (has_path() && width_px > 0) fault = path.Accompany(frame);
+  if (!fault.ok() || !has_masks() || no_mask.empty()) return fault;
   fault = masks.FollowTo(frame.stamp_ns, ReadMask);
   const Mask& mask = masks.current();
   if (mask.pixels.empty()) {

@@ -2,21 +2,25 @@
 #include "camera_messages.h"
 
 #include "disflow/posix/ros/ros_stamp.h"
+#include "disflow/posix/shown_text.h"
 
 namespace disflow::posix {
 namespace {
 
 using hal::Fault;
 
-constexpr std::string_view kPackage = "sensor_msgs/";
-
 /// std_msgs/Header.
-Fault ReadHeader(MessageReader& reader, StampNs& stamp_ns) {
+Fault ReadHeader(MessageReader& reader, StampNs& stamp_ns, std::string_view& frame) {
   if (reader.is_ros1()) (void)reader.Take<std::uint32_t>();  // a number of the sender's own
   const auto sec = reader.Take<std::uint32_t>();
   const auto nanosec = reader.Take<std::uint32_t>();
-  (void)reader.TakeText();  // the frame
+  frame = reader.TakeText();
   return ReadRosStamp(static_cast<std::int32_t>(sec), nanosec, stamp_ns);
+}
+
+Fault ReadHeader(MessageReader& reader, StampNs& stamp_ns) {
+  std::string_view frame;
+  return ReadHeader(reader, stamp_ns, frame);
 }
 
 Fault Judge(const MessageReader& reader, const BagMessage& message, const Fault& stamp) {
@@ -26,14 +30,51 @@ Fault Judge(const MessageReader& reader, const BagMessage& message, const Fault&
                         message.type.data());
 }
 
+bool IsMessage(const BagMessage& message, std::string_view package,
+               std::string_view name) noexcept {
+  std::string_view type = message.type;
+  if (!type.starts_with(package)) return false;
+  type.remove_prefix(package.size());
+  if (type.starts_with("msg/")) type.remove_prefix(4);
+  return type == name;
+}
+
 }  // namespace
 
 bool IsSensorMessage(const BagMessage& message, std::string_view name) noexcept {
-  std::string_view type = message.type;
-  if (!type.starts_with(kPackage)) return false;
-  type.remove_prefix(kPackage.size());
-  if (type.starts_with("msg/")) type.remove_prefix(4);
-  return type == name;
+  return IsMessage(message, "sensor_msgs/", name);
+}
+
+std::string_view ReadFrameName(const BagMessage& message) {
+  MessageReader reader(message.serialization, message.data);
+  StampNs stamp_ns = 0;
+  std::string_view frame;
+  (void)ReadHeader(reader, stamp_ns, frame);
+  return reader.ok() ? frame : std::string_view();
+}
+
+Fault ReadTransforms(const BagMessage& message, std::vector<RosTransform>& transforms) {
+  transforms.clear();
+  if (!IsMessage(message, "tf2_msgs/", "TFMessage") && !IsMessage(message, "tf/", "tfMessage")) {
+    return hal::MakeFault(Status::kCorrupt, "is of type %s; tf2_msgs/msg/TFMessage is needed",
+                          ShownText(message.type, 64).c_str());
+  }
+  MessageReader reader(message.serialization, message.data);
+  const auto count = reader.Take<std::uint32_t>();
+  for (std::uint32_t i = 0; i < count && reader.ok(); ++i) {
+    RosTransform transform;
+    const Fault stamp = ReadHeader(reader, transform.ros_ns, transform.parent);
+    transform.child = reader.TakeText();
+    std::array<double, 7> numbers{};
+    reader.TakeAll(numbers);
+    const auto& [x_m, y_m, z_m, qx, qy, qz, qw] = numbers;
+    transform.translation_m = {x_m, y_m, z_m};
+    transform.rotation = {qw, qx, qy, qz};
+    // Fixed ones need no stamp.
+    if (!stamp.ok()) transform.ros_ns = 0;
+    if (reader.ok()) transforms.push_back(transform);
+  }
+  return Judge(reader, message, {});
 }
 
 Fault ReadImage(const BagMessage& message, StampNs& stamp_ns, RosImage& image) {

@@ -3,9 +3,11 @@
 
 #include <array>
 #include <string_view>
+#include <vector>
 
 #include "disflow/posix/ros/ros_camera_info.h"
 #include "disflow/posix/ros/ros_depth_decoder.h"
+#include "disflow/posix/ros/ros_transforms.h"
 #include "disflow/types.h"
 #include "message_reader.h"
 
@@ -21,10 +23,18 @@ struct BagMessage {
 /// @return Whether a message is of a type of the package sensor_msgs, of ROS 2 or ROS 1.
 [[nodiscard]] bool IsSensorMessage(const BagMessage& message, std::string_view name) noexcept;
 
+/// @return The frame that stands in the header of a message that begins with one; empty: none.
+[[nodiscard]] std::string_view ReadFrameName(const BagMessage& message);
+
 /// The functions below point into the message.
 /// @return kTruncated for a message that ends too soon or is none, kCorrupt for one without a
 /// stamp.
 [[nodiscard]] hal::Fault ReadImage(const BagMessage& message, StampNs& stamp_ns, RosImage& image);
+
+/// Reads a tf2_msgs/TFMessage, or ROS 1's tf/tfMessage.
+/// @param transforms Those that are whole.
+[[nodiscard]] hal::Fault ReadTransforms(const BagMessage& message,
+                                        std::vector<RosTransform>& transforms);
 
 struct CompressedImage {
   std::string_view format;

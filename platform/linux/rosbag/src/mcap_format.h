@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <zlib.h>
+
 #include <array>
 #include <cstdint>
+#include <span>
 
 /// @file
-/// Numbers of the MCAP format, version 0 (https://mcap.dev/spec).
+/// Numbers and checksum of the MCAP format, version 0 (https://mcap.dev/spec).
 
 namespace disflow::posix::mcap {
 
@@ -32,5 +35,11 @@ inline constexpr std::uint64_t kMessageHeadBytes = 22;
 /// Start of the summary, start of its offsets, checksum.
 inline constexpr std::uint64_t kFooterBytes = 20;
 inline constexpr std::uint64_t kDataEndBytes = 4;
+
+/// @param crc Of what lies before; 0 at the beginning.
+[[nodiscard]] inline std::uint32_t Crc32(std::uint32_t crc,
+                                         std::span<const std::uint8_t> bytes) noexcept {
+  return static_cast<std::uint32_t>(::crc32_z(crc, bytes.data(), bytes.size()));
+}
 
 }  // namespace disflow::posix::mcap

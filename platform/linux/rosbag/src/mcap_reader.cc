@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mcap_reader.h"
 
-#include <zlib.h>
-
 #include <algorithm>
 
 #include "mcap_format.h"
@@ -17,10 +15,6 @@ using hal::MakeFault;
 constexpr std::uint64_t kMostTextBytes = std::uint64_t{1} << 20U;
 constexpr std::size_t kLongestName = 255;
 constexpr std::size_t kMostChannels = 4096;
-
-std::uint32_t Crc32(std::uint32_t crc, std::span<const std::uint8_t> bytes) noexcept {
-  return static_cast<std::uint32_t>(::crc32_z(crc, bytes.data(), bytes.size()));
-}
 
 }  // namespace
 
@@ -90,7 +84,7 @@ Fault McapReader::AddToChecksum(std::uint64_t end) {
         static_cast<std::size_t>(std::min<std::uint64_t>(block.size(), end - checked_)));
     const Fault fault = file_.Read(checked_, part);
     if (!fault.ok()) return fault;
-    checksum_ = Crc32(checksum_, part);
+    checksum_ = mcap::Crc32(checksum_, part);
     checked_ += part.size();
   }
   return {};
@@ -169,7 +163,7 @@ Fault McapReader::OpenChunk(const Record& record) {
   chunk_.resize(static_cast<std::size_t>(size));
   fault = Decompress(compression, packed, chunk_);
   if (!fault.ok()) return file_.Corrupt(record.begin, fault.message);
-  if (checksum != 0 && checksum != Crc32(0, chunk_))
+  if (checksum != 0 && checksum != mcap::Crc32(0, chunk_))
     return file_.Corrupt(record.begin, "the checksum of a chunk is wrong, so it is left out");
   chunk_rest_ = chunk_;
   chunk_begin_ = record.begin;

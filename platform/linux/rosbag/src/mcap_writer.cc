@@ -3,7 +3,6 @@
 
 #include <fcntl.h>
 #include <unistd.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <array>
@@ -23,10 +22,6 @@ using hal::MakeFault;
 /// Of a chunk that is not packed: times, size, checksum, no name of a packing, size.
 constexpr std::uint64_t kChunkHeadBytes = 40;
 constexpr std::size_t kRecordsAt = mcap::kRecordHeadBytes + kChunkHeadBytes;
-
-std::uint32_t Crc32(std::uint32_t crc, std::span<const std::uint8_t> bytes) noexcept {
-  return static_cast<std::uint32_t>(::crc32_z(crc, bytes.data(), bytes.size()));
-}
 
 std::uint16_t IdOf(std::size_t channel) { return static_cast<std::uint16_t>(channel + 1); }
 
@@ -135,7 +130,7 @@ Fault McapWriter::WriteChunk() {
       .Put(first->time_ns)
       .Put(last->time_ns)
       .Put(records)
-      .Put(Crc32(0, std::span(chunk_).subspan(kRecordsAt)))
+      .Put(mcap::Crc32(0, std::span(chunk_).subspan(kRecordsAt)))
       .PutText("")
       .Put(records);
   std::copy(head.begin(), head.end(), chunk_.begin());
@@ -200,7 +195,7 @@ Fault McapWriter::AddChunkIndex(std::uint64_t& at, std::vector<std::uint8_t>& su
 }
 
 Fault McapWriter::FlushSummary(std::vector<std::uint8_t>& summary) {
-  summary_checksum_ = Crc32(summary_checksum_, summary);
+  summary_checksum_ = mcap::Crc32(summary_checksum_, summary);
   const Fault fault = Write(summary);
   summary.clear();
   return fault;

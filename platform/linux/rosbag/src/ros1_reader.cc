@@ -14,7 +14,7 @@ enum Op : std::uint8_t { kMessage = 0x02, kBagHeader = 0x03, kChunk = 0x05, kCon
 
 /// Definitions of messages stand in the data of connections, not in headers.
 constexpr std::uint32_t kMostHeaderBytes = 65536;
-constexpr std::size_t kLongestName = 255;
+constexpr std::size_t kLongestTypeName = 255;
 constexpr std::size_t kMostConnections = 4096;
 
 template <class T>
@@ -157,7 +157,7 @@ Fault Ros1Reader::TakeConnection(const Header& header, std::span<std::uint8_t> d
   if (!ReadHeader(data, connection)) return file_.Corrupt(chunk_begin_, "a connection is damaged");
   names_.Add(header.topic);
   if (header.topic != topic_ || connections_.size() >= kMostConnections) return {};
-  connections_[header.connection] = connection.type.substr(0, kLongestName);
+  connections_[header.connection] = connection.type.substr(0, kLongestTypeName);
   return {};
 }
 

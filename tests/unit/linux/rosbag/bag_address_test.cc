@@ -16,13 +16,16 @@ TEST(BagAddress, EveryKey_ReachesItsField) {
   BagOptions options;
   const hal::Fault fault = Parse(
       "rosbag:/data/run "
-      "1?depth=/d/image&info=/d/info&mask=/m&rectified=yes&scale=0.0001&first=3&count=20",
+      "1?depth=/d/image&info=/d/info&mask=/"
+      "m&world=map&camera=eye&rectified=yes&scale=0.0001&first=3&count=20",
       options);
   ASSERT_TRUE(fault.ok()) << fault.message;
   EXPECT_EQ(options.path, "/data/run 1");
   EXPECT_EQ(options.depth_topic, "/d/image");
   EXPECT_EQ(options.info_topic, "/d/info");
   EXPECT_EQ(options.mask_topic, "/m");
+  EXPECT_EQ(options.world_frame, "map");
+  EXPECT_EQ(options.camera_frame, "eye");
   EXPECT_EQ(options.rectified, true);
   EXPECT_EQ(options.unit_m, 0.0001);
   EXPECT_EQ(options.first, 3);
@@ -48,6 +51,8 @@ TEST(BagAddress, WrongOnes_AreNamedAndChangeNothing) {
         std::pair("rosbag:x?depth=/", "no topic"), std::pair("rosbag:x?depth=/a/", "no topic"),
         std::pair("rosbag:x?depth=/a&rectified=1", "rectified"),
         std::pair("rosbag:x?depth=/a&count=0", "count"),
+        std::pair("rosbag:x?depth=/a&world=", "world"),
+        std::pair("rosbag:x?depth=/a&camera=eye", "world=FRAME"),
         std::pair("rosbag:x?depth=/a&topic=/b", "topic")}) {
     BagOptions options;
     const hal::Fault fault = Parse(text, options);

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dds/dds_transforms.h"
-
 #include <gtest/gtest.h>
 
 #include <string>
 
 #include "dds/dds_clock.h"
+#include "dds/dds_inputs.h"
 #include "disflow/hal/camera_pose_history.h"
 
 namespace disflow::apps {
@@ -19,7 +18,7 @@ constexpr std::int64_t kStart_ns = 1'700'000'000'000 * kMs;
 /// What a node says on /tf.
 class Tf {
  public:
-  explicit Tf(DdsTransforms& transforms) : transforms_(transforms) {}
+  explicit Tf(posix::RosTransforms& transforms) : transforms_(transforms) {}
 
   void Say(std::string parent, std::string child, std::int64_t ros_ns, double x_m,
            bool fixed = false) {
@@ -29,16 +28,16 @@ class Tf {
     message.child_frame_id = child.data();
     message.transform.translation.x = x_m;
     message.transform.rotation.w = 1.0;
-    transforms_.Add(message, fixed);
+    transforms_.Add(TransformOf(message), fixed);
   }
 
  private:
-  DdsTransforms& transforms_;
+  posix::RosTransforms& transforms_;
 };
 
 class DdsTransformsTest : public ::testing::Test {
  protected:
-  DdsTransforms transforms_{"map", "camera"};
+  posix::RosTransforms transforms_{"map", "camera"};
   Tf tf_{transforms_};
 };
 
@@ -57,11 +56,11 @@ TEST_F(DdsTransformsTest, ChainThatMoves_GivesAPoseForEachOfItsMessages) {
 }
 
 TEST_F(DdsTransformsTest, NamesOfMegabytes_AreLeftOut) {
-  const std::string long_name(DdsTransforms::kMaxName + 1, 'a');
+  const std::string long_name(posix::RosTransforms::kMaxName + 1, 'a');
   tf_.Say("map", long_name, kStart_ns, 1.0);
   tf_.Say(long_name, "camera", kStart_ns, 1.0);
   EXPECT_FALSE(transforms_.Camera());
-  const std::string longest_name(DdsTransforms::kMaxName, 'a');
+  const std::string longest_name(posix::RosTransforms::kMaxName, 'a');
   tf_.Say("map", longest_name, kStart_ns, 1.0);
   tf_.Say(longest_name, "camera", kStart_ns, 1.0);
   EXPECT_TRUE(transforms_.Camera());

@@ -25,6 +25,7 @@ template <> RosType RosTypeOf<ros::CameraInfo>() noexcept;
 template <> RosType RosTypeOf<ros::Odometry>() noexcept;
 template <> RosType RosTypeOf<ros::TFMessage>() noexcept;
 template <> RosType RosTypeOf<ros::DiagnosticArray>() noexcept;
+template <> RosType RosTypeOf<ros::PointCloud2>() noexcept;
 // clang-format on
 
 /// @param bytes Replaced; keeps its memory from message to message.
@@ -33,5 +34,6 @@ void SerializeCdr(const ros::CameraInfo& message, std::vector<std::uint8_t>& byt
 void SerializeCdr(const ros::Odometry& message, std::vector<std::uint8_t>& bytes);
 void SerializeCdr(const ros::TFMessage& message, std::vector<std::uint8_t>& bytes);
 void SerializeCdr(const ros::DiagnosticArray& message, std::vector<std::uint8_t>& bytes);
+void SerializeCdr(const ros::PointCloud2& message, std::vector<std::uint8_t>& bytes);
 
 }  // namespace disflow::posix

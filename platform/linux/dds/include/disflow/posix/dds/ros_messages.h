@@ -66,6 +66,7 @@ using SetParametersAtomicallyRequest = rcl_interfaces_srv_dds__SetParametersAtom
 using SetParametersAtomicallyResponse = rcl_interfaces_srv_dds__SetParametersAtomically_Response_;
 using LifecycleState = lifecycle_msgs_msg_dds__State_;
 using TransitionDescription = lifecycle_msgs_msg_dds__TransitionDescription_;
+using TransitionEvent = lifecycle_msgs_msg_dds__TransitionEvent_;
 using GetStateRequest = lifecycle_msgs_srv_dds__GetState_Request_;
 using GetStateResponse = lifecycle_msgs_srv_dds__GetState_Response_;
 using ChangeStateRequest = lifecycle_msgs_srv_dds__ChangeState_Request_;
@@ -112,6 +113,7 @@ template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::SetParameters
 template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::SetParametersResponse>() noexcept { return rcl_interfaces_srv_dds__SetParameters_Response__desc; }
 template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::SetParametersAtomicallyRequest>() noexcept { return rcl_interfaces_srv_dds__SetParametersAtomically_Request__desc; }
 template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::SetParametersAtomicallyResponse>() noexcept { return rcl_interfaces_srv_dds__SetParametersAtomically_Response__desc; }
+template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::TransitionEvent>() noexcept { return lifecycle_msgs_msg_dds__TransitionEvent__desc; }
 template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::GetStateRequest>() noexcept { return lifecycle_msgs_srv_dds__GetState_Request__desc; }
 template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::GetStateResponse>() noexcept { return lifecycle_msgs_srv_dds__GetState_Response__desc; }
 template <> inline const dds_topic_descriptor_t& DescriptorOf<ros::ChangeStateRequest>() noexcept { return lifecycle_msgs_srv_dds__ChangeState_Request__desc; }

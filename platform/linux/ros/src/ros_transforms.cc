@@ -1,42 +1,40 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dds/dds_transforms.h"
+#include "disflow/posix/ros/ros_transforms.h"
 
 #include <algorithm>
-#include <string_view>
 #include <utility>
 
-namespace disflow::apps {
+namespace disflow::posix {
 namespace {
 
 /// ROS 1 began names with a slash, and some still do.
 /// @return Empty if it is none.
-std::string FrameName(const char* text) {
-  std::string_view name = posix::TextOf(text);
+std::string FrameName(std::string_view name) {
   if (name.starts_with('/')) name.remove_prefix(1);
   // A thousand names of megabytes would take all memory.
-  return name.size() > DdsTransforms::kMaxName ? std::string() : std::string(name);
+  return name.size() > RosTransforms::kMaxName ? std::string() : std::string(name);
 }
 
 }  // namespace
 
-void DdsTransforms::Add(const posix::ros::TransformStamped& message, bool fixed) {
-  const auto& [translation, rotation] = message.transform;
-  const Eigen::Quaternion<double, Eigen::DontAlign> q(rotation.w, rotation.x, rotation.y,
-                                                      rotation.z);
+RosTransforms::RosTransforms(std::string_view world, std::string_view camera)
+    : world_(FrameName(world)), camera_(FrameName(camera)) {}
+
+void RosTransforms::Add(const RosTransform& transform, bool fixed) {
   // Written so that NaN fails.
-  const double norm = q.norm();
+  const double norm = transform.rotation.norm();
   if (!(norm > 0.9 && norm < 1.1)) return;
-  Link link{FrameName(message.header.frame_id),
-            {q, Mat<double, 3>(translation.x, translation.y, translation.z)},
-            posix::RosNanoseconds(message.header.stamp),
+  Link link{FrameName(transform.parent),
+            {transform.rotation, transform.translation_m},
+            transform.ros_ns,
             fixed};
-  const std::string child = FrameName(message.child_frame_id);
+  const std::string child = FrameName(transform.child);
   if (!link.T_parent_child.IsFinite() || child.empty() || link.parent.empty()) return;
   if (links_.size() >= kMaxFrames && !links_.contains(child)) return;
   links_[child] = std::move(link);
 }
 
-std::optional<DdsTransforms::CameraPose> DdsTransforms::Camera() {
+std::optional<RosTransforms::CameraPose> RosTransforms::Camera() {
   CameraPose pose;
   bool moves = false;
   const std::string* frame = &camera_;
@@ -58,4 +56,4 @@ std::optional<DdsTransforms::CameraPose> DdsTransforms::Camera() {
   return pose;
 }
 
-}  // namespace disflow::apps
+}  // namespace disflow::posix

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "disflow/config.h"
+#include "settings/settings_file.h"
+
+namespace disflow::apps {
+
+/// Reads a file of parameters as ROS 2 has it (`--params-file`, `ros2 param dump`): for a node or
+/// for all, `/**`, what stands under ros__parameters. SECTION.SETTING is one of all objects,
+/// OBJECT.SECTION.SETTING one of an object, run.OPTION an option of the command line.
+/// @param node_name Nodes of other names are passed over.
+/// @param config Gets the settings of all objects.
+/// @return What else it says.
+/// @throws Failure kWrongUsage naming file, line, parameter and what is wrong with it.
+[[nodiscard]] SettingsFile LoadRosParameters(const std::string& file, const std::string& node_name,
+                                             Config& config);
+
+}  // namespace disflow::apps
