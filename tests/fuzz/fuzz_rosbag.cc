@@ -38,7 +38,7 @@ void CheckFile(const std::uint8_t* data, std::size_t size) {
   options.depth_topic = "/d";
   options.info_topic = "/i";
   options.mask_topic = size % 2 == 0 ? "/m" : "";
-  options.world_frame = size % 4 < 2 ? "w" : "";
+  if (size % 4 < 2) options.world_frame.push_back('w');
   posix::BagSensor sensor(options);
   const hal::Fault opened = sensor.Open();
   CheckMessage(opened);

@@ -48,6 +48,10 @@ def parse(words):
                         help="accuracy, peers: a scanned mesh in metres, in addition; may be repeated")
     parser.add_argument("--continue", action="store_true", dest="resume",
                         help="accuracy: of a run that was broken off, keep what the same programs have measured")
+    parser.add_argument("--frames-in", type=pathlib.Path, metavar="DIR", dest="frames_dir",
+                        help="accuracy: keep the frames of every sequence here, 270 MB each, and take them from here the next "
+                             "time: the same figures in a second where a stereo camera takes a minute. To be removed when the "
+                             "simulator changes")
     parser.add_argument("--remark", default="", help="peers: what to say on the page of how it was measured")
     parser.add_argument("--only", action="append", metavar="TEXT", default=[],
                         help="only rows whose name contains this, may be repeated; the pages stay as they are")
@@ -60,7 +64,7 @@ def measure_accuracy(options, seeds, whole):
     # A row that is held against another one needs it.
     wanted = {row.name for row in rows} | {row.like for row in rows}
     rows = [row for row in every if row.name in wanted]
-    programs = runs.Programs(options.bin, options.out, options.resume)
+    programs = runs.Programs(options.bin, options.out, options.resume, options.frames_dir)
     results = accuracy.measure(programs, rows, seeds)
     images = options.docs / "images" if whole else options.out / "images"
     pictures = plots.draw(programs, rows, seeds, images)

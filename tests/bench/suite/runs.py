@@ -2,15 +2,21 @@
 """Runs the project's programs: track a simulated sequence, judge the trajectory."""
 
 import concurrent.futures
+import contextlib
 import dataclasses
 import json
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 
 import figures
+
+
+def _as_file_name(text):
+    return re.sub(r"[^a-z0-9]+", "-", text.lower()).strip("-")
 
 
 @dataclasses.dataclass(frozen=True)
@@ -30,16 +36,23 @@ class Job:
     @property
     def stem(self):
         """A file name of its own."""
-        return re.sub(r"[^a-z0-9]+", "-", f"{self.name}-{self.scene}-{self.seed}".lower()).strip("-")
+        return _as_file_name(f"{self.name}-{self.scene}-{self.seed}")
+
+    @property
+    def frames(self):
+        """A name for its frames, which all variants of the settings share."""
+        return _as_file_name(f"{self.scene}-{self.seed}")
 
 
 class Programs:
     """The programs of one build and a folder for what they write."""
 
-    def __init__(self, bin_dir, out_dir, resume=False):
-        """@param resume Keep reports that are younger than the programs."""
+    def __init__(self, bin_dir, out_dir, resume=False, frames_dir=None):
+        """@param resume Keep reports that are younger than the programs.
+        @param frames_dir Keep the frames of every sequence here and take them from here."""
         self.bin_dir = pathlib.Path(bin_dir)
         self.resume = resume
+        self.frames_dir = pathlib.Path(frames_dir) if frames_dir else None
         self.out_dir = pathlib.Path(out_dir)
         (self.out_dir / "runs").mkdir(parents=True, exist_ok=True)
 
@@ -68,18 +81,38 @@ class Programs:
         except json.JSONDecodeError:  # Broken off while it was written.
             return None
 
+    @contextlib.contextmanager
+    def _frames(self, job):
+        """Where the frames of a sequence come from. A stereo camera takes a minute to be simulated, and a second to be
+        tracked: frames that are kept give the same trajectory."""
+        kept = self.frames_dir and self.frames_dir / job.frames
+        if not kept:
+            yield ("--sensor", job.address)
+        elif kept.exists():
+            yield ("--sensor", f"replay:{kept}")
+        else:
+            part = kept.with_name(f"{kept.name}.{job.stem}.part")
+            shutil.rmtree(part, ignore_errors=True)
+            part.parent.mkdir(parents=True, exist_ok=True)
+            yield ("--sensor", job.address, "--record", part)
+            with contextlib.suppress(OSError):  # Another variant was quicker with the same sequence.
+                part.rename(kept)
+            shutil.rmtree(part, ignore_errors=True)
+
     def track(self, job):
         """Figures of a run; the trajectory, errors and mesh stay in the folder."""
         before = self._measured_before(self.file(job, ".json")) if self.resume else None
         if before:
             return before
-        words = ["--sensor", job.address, "--csv", self.file(job, ".csv"), "--headless"]
+        words = ["--csv", self.file(job, ".csv"), "--headless"]
         for setting in job.settings:
             words += ["--set", setting]
         if job.mesh:
             words += ["--mesh", self.file(job, ".ply")]
         # 3: not one frame could be tracked. That is a result, not an accident.
-        if self.call("disflow_track", *words, may_fail_with=(3,)) is None:
+        with self._frames(job) as source:
+            tracked = self.call("disflow_track", *source, *words, may_fail_with=(3,)) is not None
+        if not tracked:
             return dict(figures.FAILED)
         return self.judge(job, self.file(job, ".ply") if job.mesh else None)
 

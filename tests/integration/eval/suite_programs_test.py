@@ -49,6 +49,18 @@ class Programs(unittest.TestCase):
             self.assertIsNotNone(run["pose_nees"])
             self.assertGreater(data["tracker_bytes"], 100000)
 
+    def test_kept_frames_give_the_figures_of_simulated_ones(self):
+        with tempfile.TemporaryDirectory() as folder:
+            root = pathlib.Path(folder)
+            job = runs.Job("a", "mug?motion=fast&noise=d415&frames=40&mask=sloppy&fps=15", 2)
+            plain = runs.Programs(BIN, root / "plain").track(job)
+            for time in ("first", "second"):
+                programs = runs.Programs(BIN, root / time, frames_dir=root / "frames")
+                figures = programs.track(job)
+                for name in ("add_auc", "v", "e_a", "lost"):
+                    self.assertEqual(figures[name], plain[name], f"{name}, {time} time")
+            self.assertEqual([kept.name for kept in (root / "frames").iterdir()], [job.frames])
+
     def test_program_that_fails_ends_the_suite_with_its_message(self):
         with tempfile.TemporaryDirectory() as folder:
             programs = runs.Programs(BIN, folder)

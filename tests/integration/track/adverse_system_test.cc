@@ -263,9 +263,9 @@ TEST_F(TooLittle, AddressSpace_EndsWithAWordAndAStatus) {
 TEST_F(TooLittle, DescriptorsForTheLiveView_AreRefusedWithTheNumberThatIsNeeded) {
   const Outcome few = RunWith("-n 20", {"--view", ":0?token=none"});
   EXPECT_EQ(few.exit_status, 4) << few.err;
-  EXPECT_NE(few.err.find("only 20 files may be open at once, 64 are needed"), std::string::npos)
+  EXPECT_NE(few.err.find("only 20 files may be open at once, 72 are needed"), std::string::npos)
       << few.err;
-  const Outcome enough = RunWith("-n 64", {"--view", ":0?token=none"});
+  const Outcome enough = RunWith("-n 72", {"--view", ":0?token=none"});
   EXPECT_EQ(enough.exit_status, 0) << enough.err;
 }
 #endif
