@@ -95,7 +95,8 @@ class Tracker {
   static constexpr int kInitialBudgetFactor = 12;
   static constexpr int kFramesUntilObserved = 3;
   static constexpr int kMostForgotten = 64;  ///< Clusters per frame; the rest goes in the next.
-  static constexpr float kFade_s = 0.5F;     ///< Time constant of the velocity of an unseen object.
+  using Handles = FixedVector<Handle, kMostForgotten>;
+  static constexpr float kFade_s = 0.5F;  ///< Time constant of the velocity of an unseen object.
   /// Longer repeats are no hiccup of a driver: the scene stands still, or the camera hangs.
   static constexpr StampNs kLongestHiccup_ns = 100'000'000;
   static constexpr float kDefinedPoseVariance = 1e-10F;  ///< (0.01 mm)^2 and (0.01 mrad)^2.
@@ -135,6 +136,7 @@ class Tracker {
   [[nodiscard]] bool IsTurnFree(StampNs stamp_ns) const noexcept;
   [[nodiscard]] Aligned FindTurn(const DepthFrame& frame, Registration<Limits>& registration,
                                  const Aligned& aligned, RobustScale scale, float& score) noexcept;
+  void Forget(Handles& forgotten, Estimate& estimate) noexcept;
   void ForgetFoundTurnFree(Estimate& estimate) noexcept;
   [[nodiscard]] bool FitsModel(const Vec3& center_c) const noexcept;
   void Follow(StampNs stamp_ns, const Aligned& aligned, const PoseCovariance& covariance,

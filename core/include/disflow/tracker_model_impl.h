@@ -53,7 +53,7 @@ void Tracker<Limits>::RememberView(const DepthFrame& frame) noexcept {
 template <CapacityProfile Limits>
 void Tracker<Limits>::ForgetContradicted(const DepthFrame& frame, const PoseObjectFromCamera& T_oc,
                                          Estimate& estimate) noexcept {
-  FixedVector<Handle, kMostForgotten> forgotten;
+  Handles forgotten;
   const bool turn_free = IsTurnFree(frame.stamp_ns);
   (void)CompareWithImage(field_, T_oc, frame.camera, UsableDepth(frame),
                          [&](Handle handle, bool seen) {
@@ -61,28 +61,32 @@ void Tracker<Limits>::ForgetContradicted(const DepthFrame& frame, const PoseObje
                            if (turn_free && !field_.store()[handle].turn_free) return;
                            if (field_.Witness(handle, seen)) (void)forgotten.push_back(handle);
                          });
-  const auto forget = [&] {
-    for (const Handle handle : forgotten) field_.Forget(handle, estimate.rejected);
-    forgotten.clear();
-  };
-  forget();
+  Forget(forgotten, estimate);
   field_.ForEachUnconfirmed(frame_index_,
                             [&](Handle handle) { (void)forgotten.push_back(handle); });
-  forget();
+  Forget(forgotten, estimate);
+}
+
+/// Empties the list: the field must not change while it is looked through.
+template <CapacityProfile Limits>
+void Tracker<Limits>::Forget(Handles& forgotten, Estimate& estimate) noexcept {
+  for (const Handle handle : forgotten) field_.Forget(handle, estimate.rejected);
+  forgotten.clear();
 }
 
 /// Surface that was found while nothing told the turn lies elsewhere about the axis, once the turn
 /// is found: a mug would have two handles.
 template <CapacityProfile Limits>
 void Tracker<Limits>::ForgetFoundTurnFree(Estimate& estimate) noexcept {
-  FixedVector<Handle, kMostForgotten> forgotten;
-  do {
-    forgotten.clear();
+  bool more = true;
+  while (more) {
+    Handles forgotten;
     field_.store().ForEach([&](Handle handle, const auto& cluster) {
-      if (cluster.turn_free && !forgotten.full()) (void)forgotten.push_back(handle);
+      if (cluster.turn_free) (void)forgotten.push_back(handle);
     });
-    for (const Handle handle : forgotten) field_.Forget(handle, estimate.rejected);
-  } while (forgotten.full());
+    more = forgotten.full();
+    Forget(forgotten, estimate);
+  }
 }
 
 template <CapacityProfile Limits>

@@ -16,8 +16,8 @@ namespace disflow {
 /// its axis, after nothing has told that for some time. A registration follows slopes, and a round
 /// wall has none: the turn has to be looked for. What tells it are the observed samples that look
 /// alike at few turns, and of the model only what was known before the turn was lost: what was
-/// learnt since, at a turn that may be wrong, confirms itself. What tells it is where there is
-/// surface, not by how little a sample misses it: each side of an oval bottle is a little off, one
+/// learnt since, at a turn that may be wrong, confirms itself. A turn is judged by where there is
+/// surface, not by how little samples miss it: each side of an oval bottle is a little off, one
 /// less than the other, and the bottle would turn over to that one.
 template <class Limits>
 class TurnSearch {

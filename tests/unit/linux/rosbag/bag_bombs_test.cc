@@ -75,6 +75,16 @@ class BagBombTest : public BagSensorTest {
     EXPECT_GE(unpacked, 1 + free_bytes / bomb_bytes);
     EXPECT_LE(unpacked, 1 + allowed_bytes / bomb_bytes);
   }
+
+  void ExpectPlayedWhole(const fs::path& file) const {
+    BagSensor sensor(Options(file));
+    const hal::Fault opened = sensor.Open();
+    ASSERT_TRUE(opened.ok()) << opened.message;
+    const std::vector<Played> frames = PlayAll(sensor);
+    EXPECT_EQ(std::count_if(frames.begin(), frames.end(),
+                            [](const Played& played) { return played.fault.ok(); }),
+              kFrames);
+  }
 };
 
 Bytes Repeated(const Bytes& start, const Bytes& part) {
@@ -112,13 +122,7 @@ TEST_F(BagBombTest, BagThatPacksTwentyTimesWithBzip2_IsPlayedWhole) {
   const fs::path file = dir_.Write("a.bag", Ros1Bag(messages, "bz2"));
   ASSERT_GT(kFrames * kImage_bytes, 20 * fs::file_size(file));
   ASSERT_GT(kFrames * kImage_bytes, 2 * UnpackedTotal::kFree_bytes / UnpackedTotal::kBzip2Weight);
-  BagSensor sensor(Options(file));
-  const hal::Fault opened = sensor.Open();
-  ASSERT_TRUE(opened.ok()) << opened.message;
-  const std::vector<Played> frames = PlayAll(sensor);
-  EXPECT_EQ(std::count_if(frames.begin(), frames.end(),
-                          [](const Played& played) { return played.fault.ok(); }),
-            kFrames);
+  ExpectPlayedWhole(file);
 }
 
 TEST_F(BagBombTest, MessagesThatArePackedByThemselves_AreUnpackedAsFarAsTheFilesLengthAllows) {
@@ -143,13 +147,7 @@ TEST_F(BagBombTest, ShortRecordingOfNothing_IsPlayedHoweverWellItPacks) {
   }
   const fs::path file = dir_.Write("a.mcap", McapFile(messages, {.compression = "zstd"}));
   ASSERT_LT(fs::file_size(file) * UnpackedTotal::kMostTimes, kFrames * kImage_bytes);
-  BagSensor sensor(Options(file));
-  const hal::Fault opened = sensor.Open();
-  ASSERT_TRUE(opened.ok()) << opened.message;
-  const std::vector<Played> frames = PlayAll(sensor);
-  EXPECT_EQ(std::count_if(frames.begin(), frames.end(),
-                          [](const Played& played) { return played.fault.ok(); }),
-            kFrames);
+  ExpectPlayedWhole(file);
 }
 
 TEST_F(BagBombTest, TenThousandDamagedImagesAtTheStart_AreEnough) {
