@@ -8,11 +8,12 @@ libraries, which have none, are read off the disassembly.
 """
 import argparse
 import json
-import os
 import pathlib
 import re
 import subprocess
 import sys
+
+import emulated
 
 FORBIDDEN = re.compile(
     r'^(malloc|calloc|realloc|free|_malloc_r|_free_r|_realloc_r|_calloc_r|_sbrk|_sbrk_r|sbrk|'
@@ -152,9 +153,7 @@ def main():
     parser.add_argument('--build', required=True, help='folder with the .ci files')
     parser.add_argument('--json', help='write the figures there')
     arguments = parser.parse_args()
-    if 'DISFLOW_TEST_FIRMWARE' not in os.environ:
-        print('skipped: run by ./dev test --firmware')
-        return 77
+    emulated.skip_unless_built()
 
     symbols = {}
     for line in run('arm-none-eabi-nm', '-S', arguments.image).splitlines():

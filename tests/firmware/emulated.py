@@ -1,16 +1,21 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Images in the emulator. Without what that needs the test is skipped (status 77)."""
+"""Images and the emulator. Without what a test needs it is skipped (status 77)."""
 import os
 import pathlib
 import shutil
 import sys
 
 
-def command(machine, image):
-    """The emulator's command line for an image whose output and end go through semihosting."""
+def skip_unless_built():
+    """Elsewhere the images are missing or of another commit."""
     if 'DISFLOW_TEST_FIRMWARE' not in os.environ:
         print('skipped: run by ./dev test --firmware')
         sys.exit(77)
+
+
+def command(machine, image):
+    """The emulator's command line for an image whose output and end go through semihosting."""
+    skip_unless_built()
     if not shutil.which('qemu-system-arm'):
         print('skipped: qemu-system-arm is missing')
         sys.exit(77)
