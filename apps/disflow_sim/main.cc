@@ -56,6 +56,7 @@ constexpr std::array kExplanations{
     Explanation{"edge_mm", "Radius of the edges of rounded-box and flat-box [0: 4 and 2 mm]"},
     Explanation{"bulge_mm", "By which the faces of boxes stand out in the middle [0]"},
     Explanation{"uneven_mm", "Standard deviation of surfaces from the drawn ones [0]"},
+    Explanation{"distance_m", "The objects' centres come no nearer than this [0: 0.55 m]"},
     Explanation{"drop", "Share of images that are lost [0]"},
     Explanation{"repeat", "Share of images that are the one before again [0]"},
     Explanation{"jitter_ms", "Stamps are off by up to this, ms [0]"},

@@ -33,4 +33,11 @@ float ThirdOrderVariance(const BlockMeans& means) noexcept {
          3.0F;
 }
 
+float CorrelationFactor(float growth) noexcept {
+  constexpr float kMostOfNoise = 24.0F;
+  const float more = growth - 1.0F;
+  if (!(more > 0.0F) || growth > kMostOfNoise) return 1.0F;
+  return 1.0F + more * (0.58F + 0.0135F * more);
+}
+
 }  // namespace disflow

@@ -45,6 +45,7 @@ struct SamplerConfig {
   float min_cos_incidence = 0.12F;
   float min_fill = 0.5F;
   float max_residual_sigmas = 2.5F;
+  float normal_std_rad = 0.15F;
   float max_bend_ratio = 5e-4F;
   float inverse_depth_std_per_m = 0.0F;
   float min_inverse_depth_std_per_m = 2e-5F;

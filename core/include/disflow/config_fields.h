@@ -83,6 +83,8 @@ constexpr void VisitFields(ConfigType& config, Visitor&& visitor) {
         "share of a block's pixels that must carry depth");
   field("sampler.max_residual_sigmas", sam.max_residual_sigmas, 0.5, 20.0, "sigma",
         "plane fits that are worse are rejected as flying pixels or creases");
+  field("sampler.normal_std_rad", sam.normal_std_rad, 0.01, 3.0, "rad",
+        "blocks grow until noise leaves the normals of surface that faces the camera this sure");
   field("sampler.max_bend_ratio", sam.max_bend_ratio, 0.0, 0.1, "m/m",
         "deviation from a plane that curved surface may show, as share of the depth");
   field("sampler.inverse_depth_std_per_m", sam.inverse_depth_std_per_m, 0.0, 1.0, "1/m",

@@ -57,14 +57,16 @@ Workspace MakeWorkspace(const ViewCone& view, double nearest_m, double depth_ran
 
 }  // namespace
 
-Workspace FitWorkspace(const PinholeCamera& camera, int width_px, int height_px, double radius_m) {
+Workspace FitWorkspace(const PinholeCamera& camera, int width_px, int height_px, double radius_m,
+                       double distance_m) {
   constexpr double kDepthRange_m = 0.24;
   const ViewCone view(camera, width_px, height_px);
-  return MakeWorkspace(view, view.Nearest(radius_m), kDepthRange_m, radius_m, kMaxReach_m);
+  const double nearest_m = std::max(view.Nearest(radius_m), distance_m);
+  return MakeWorkspace(view, nearest_m, kDepthRange_m, radius_m, kMaxReach_m);
 }
 
 std::vector<Workspace> StackWorkspaces(const PinholeCamera& camera, int width_px, int height_px,
-                                       std::span<const double> radii_m) {
+                                       std::span<const double> radii_m, double distance_m) {
   constexpr double kDepthRange_m = 0.06;
   constexpr double kGap_m = 0.01;
   const ViewCone view(camera, width_px, height_px);
@@ -73,7 +75,7 @@ std::vector<Workspace> StackWorkspaces(const PinholeCamera& camera, int width_px
   constexpr double kWays = 1.6;
   const std::size_t count = radii_m.size();
   std::vector<Workspace> workspaces;
-  double free_from_m = 0.0;
+  double free_from_m = distance_m - radii_m.front();
   for (std::size_t i = 0; i < count; ++i) {
     const double radius_m = radii_m[i];
     const double nearest_m = std::max(view.Nearest(radius_m), free_from_m + radius_m);

@@ -132,10 +132,11 @@ std::vector<Simulation::Body> Simulation::MakeBodies(const SimulationOptions& op
                       .sloppy = SloppyMask(options.width_px, options.height_px),
                       .disturbance = MaskDisturbance(options, bodies.size())});
   }
-  std::vector<Workspace> workspaces = {
-      FitWorkspace(camera, options.width_px, options.height_px, radii_m.front())};
+  std::vector<Workspace> workspaces = {FitWorkspace(camera, options.width_px, options.height_px,
+                                                    radii_m.front(), options.distance_m)};
   if (bodies.size() > 1)
-    workspaces = StackWorkspaces(camera, options.width_px, options.height_px, radii_m);
+    workspaces =
+        StackWorkspaces(camera, options.width_px, options.height_px, radii_m, options.distance_m);
   const std::vector<SimulatedShape> shapes = ObjectShapes(options);
   std::vector<Disc> taken;
   for (std::size_t i = 0; i < bodies.size(); ++i) {

@@ -69,6 +69,7 @@ constexpr Range<int> kGrow{-40, 40};
 constexpr Range<double> kEdge{0.0, 14.0};
 constexpr Range<double> kBulge{0.0, 3.0};
 constexpr Range<double> kUneven{0.0, 2.0};
+constexpr Range<double> kDistance{0.0, 4.0};
 constexpr Range<int> kHide{0, static_cast<int>(kMaxSimulatedObjects)};
 
 constexpr std::string_view kObjPrefix = "obj:";
@@ -145,6 +146,7 @@ constexpr std::array kOptions{ChoiceOption<&Options::motion, kMotions>("motion")
                               NumberOption<&Options::edge_mm, kEdge>("edge_mm"),
                               NumberOption<&Options::bulge_mm, kBulge>("bulge_mm"),
                               NumberOption<&Options::uneven_mm, kUneven>("uneven_mm"),
+                              NumberOption<&Options::distance_m, kDistance>("distance_m"),
                               NumberOption<&Options::drop, kShare>("drop"),
                               NumberOption<&Options::repeat, kShare>("repeat"),
                               NumberOption<&Options::jitter_ms, kJitter>("jitter_ms"),

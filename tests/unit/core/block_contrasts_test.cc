@@ -4,8 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdlib>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -61,4 +64,58 @@ TEST(ThirdOrderVariance, Median_IsTheStatedShareOfTheMean) {
 }
 
 }  // namespace
+/// Mean correlation of the pixels of two blocks in a row, so many blocks apart.
+double BlockCorrelation(int edge_px, int apart, double correlation_px) {
+  double sum = 0.0;
+  for (int i = 0; i < edge_px; ++i) {
+    for (int j = 0; j < edge_px; ++j) {
+      const double distance = (i - j + apart * edge_px) / correlation_px;
+      sum += std::exp(-0.25 * distance * distance);
+    }
+  }
+  return sum / (edge_px * edge_px);
+}
+
+/// What ThirdOrderVariance() is in the mean, times the pixels of a block.
+double ThirdOrderOf(int edge_px, double correlation_px) {
+  const auto of = [&](const std::array<double, 3>& contrast) {
+    double sum = 0.0;
+    double squares = 0.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      squares += contrast[i] * contrast[i];
+      for (std::size_t j = 0; j < 3; ++j) {
+        const int apart = std::abs(static_cast<int>(i) - static_cast<int>(j));
+        sum += contrast[i] * contrast[j] * BlockCorrelation(edge_px, apart, correlation_px);
+      }
+    }
+    return sum / squares;
+  };
+  const double first = of({-1.0, 0.0, 1.0});
+  const double second = of({1.0, -2.0, 1.0});
+  return (2.0 * first * second + second * second) / 3.0 * edge_px * edge_px;
+}
+
+TEST(CorrelationFactor, OfGaussianCorrelation_IsWhatContrastsOfTheMeansLackToTheirVariance) {
+  for (const int edge_px : {2, 3, 4, 5}) {
+    for (const double share : {0.1, 0.3, 0.5, 0.7, 0.9}) {
+      const double correlation_px = share * edge_px;
+      const double seen = ThirdOrderOf(edge_px, correlation_px);
+      const double growth = ThirdOrderOf(2 * edge_px, correlation_px) / seen;
+      const double mean_variance = std::pow(BlockCorrelation(edge_px, 0, correlation_px), 2);
+      const double factor = mean_variance * edge_px * edge_px / seen;
+      EXPECT_NEAR(static_cast<double>(CorrelationFactor(static_cast<float>(growth))), factor,
+                  0.1 * factor)
+          << edge_px << " px, correlation " << correlation_px << " px";
+    }
+  }
+}
+
+TEST(CorrelationFactor, OfWhatGrowsAsCurvatureDoes_IsOne) {
+  // A contrast of third order grows with the cube of the width, times the root of the pixels.
+  EXPECT_EQ(CorrelationFactor(std::pow(2.0F, 8.0F)), 1.0F);
+  EXPECT_EQ(CorrelationFactor(1.0F), 1.0F);
+  EXPECT_EQ(CorrelationFactor(0.5F), 1.0F);
+  EXPECT_EQ(CorrelationFactor(std::numeric_limits<float>::quiet_NaN()), 1.0F);
+}
+
 }  // namespace disflow

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
+#include <random>
 #include <vector>
 
 #include "disflow/depth/pixel_mask.h"
@@ -94,6 +96,50 @@ TEST(SurfaceSampler, ScatteredPixels_FitIntoTheBlocksThereAre) {
   const Wall<Few> wall([](int u, int v) { return u % 8 == 0 && v % 8 == 0; });
   EXPECT_GT(wall.sampler->block_px(), 8);
   EXPECT_LE(wall.samples->size(), Few::kMaxSurfaceSamples);
+}
+
+/// Noise of inverse depth that neighbouring pixels share.
+void AddCorrelatedNoise(float std_per_m, std::vector<float>& depth_m) {
+  constexpr int kReach = 2;
+  constexpr float kWindow = 2.0F * kReach + 1.0F;
+  std::mt19937 random(5);
+  std::normal_distribution<float> normal(0.0F, std_per_m * kWindow);
+  std::vector<float> white(depth_m.size());
+  for (float& value : white) value = normal(random);
+  for (int v = kReach; v < kHeight - kReach; ++v) {
+    for (int u = kReach; u < kWidth - kReach; ++u) {
+      float sum = 0.0F;
+      for (int dv = -kReach; dv <= kReach; ++dv) {
+        for (int du = -kReach; du <= kReach; ++du)
+          sum += white[static_cast<std::size_t>((v + dv) * kWidth + u + du)];
+      }
+      float& pixel_m = depth_m[static_cast<std::size_t>(v * kWidth + u)];
+      pixel_m = 1.0F / (1.0F / pixel_m + sum / (kWindow * kWindow));
+    }
+  }
+}
+
+/// Root mean square of the tilt of the normals, per component [rad].
+template <class Samples>
+float TiltOf(const Samples& samples) {
+  float sum = 0.0F;
+  for (const SurfaceSample& sample : samples) sum += sample.normal.head<2>().squaredNorm();
+  return std::sqrt(0.5F * sum / static_cast<float>(samples.size()));
+}
+
+TEST(SurfaceSampler, NoiseThatPixelsShare_WidensBlocksUntilNormalsAreAsSureAsWanted) {
+  const auto wanted = [](int u, int v) { return u >= 50 && v >= 50 && u < 110 && v < 110; };
+  Wall<profiles::Edge> wall(wanted);
+  EXPECT_EQ(wall.sampler->block_px(), 2);  // nothing asks for more
+  AddCorrelatedNoise(0.01F, wall.depth_m);
+  wall.Sample(wanted);
+  const float tilt_rad = TiltOf(*wall.samples);
+  EXPECT_LT(tilt_rad, 1.5F * wall.config.normal_std_rad);
+  EXPECT_GE(wall.samples->size(), 100);
+  wall.config.normal_std_rad = 3.0F;
+  wall.Sample(wanted);
+  EXPECT_EQ(wall.sampler->block_px(), 2);
+  EXPECT_GT(TiltOf(*wall.samples), 1.5F * tilt_rad);
 }
 
 TEST(SurfaceSampler, PixelsWithoutDepth_AreCountedOnceThoughBlocksGrow) {

@@ -153,5 +153,21 @@ TEST(FitWorkspace, SphereAnywhereInIt_IsInsideOfTheImage) {
   }
 }
 
+TEST(FitWorkspace, OfADistance_IsNoNearer) {
+  const PinholeCamera camera = SimulatedCamera({});
+  const Workspace space = FitWorkspace(camera, 640, 360, 0.1, 1.5);
+  EXPECT_NEAR(space.centre_m.z() - space.half_extent_m.z(), 1.5, 1e-12);
+  const Workspace near = FitWorkspace(camera, 640, 360, 0.1, 0.1);
+  EXPECT_EQ(near.centre_m.z(), FitWorkspace(camera, 640, 360, 0.1).centre_m.z());
+}
+
+TEST(StackWorkspaces, OfADistance_BeginThere) {
+  const PinholeCamera camera = SimulatedCamera({});
+  const std::vector<Workspace> spaces =
+      StackWorkspaces(camera, 640, 360, std::vector<double>{0.1, 0.05}, 1.5);
+  EXPECT_NEAR(spaces[0].centre_m.z() - spaces[0].half_extent_m.z(), 1.5, 1e-12);
+  EXPECT_GT(spaces[1].centre_m.z(), spaces[0].centre_m.z() + 0.1);
+}
+
 }  // namespace
 }  // namespace disflow::host

@@ -20,7 +20,8 @@ TEST(SimulationOptions, EveryKey_ReachesItsField) {
   SimulationOptions options;
   const hal::Fault fault = Parse(
       "sim:bottle?motion=flying&noise=kinect&seed=7&frames=12&fps=60&width=320&height=240&focal="
-      "250&occluder=arm&drop=0.25&repeat=0.05&jitter_ms=3&camera=moving&mask=sloppy&mask_delay=2&"
+      "250&occluder=arm&drop=0.25&repeat=0.05&jitter_ms=3&distance_m=1.5&camera=moving&mask=sloppy&"
+      "mask_delay=2&"
       "mask_"
       "grow_px=+6&mask_flicker=0.1&format=z16",
       options);
@@ -38,6 +39,7 @@ TEST(SimulationOptions, EveryKey_ReachesItsField) {
   EXPECT_EQ(options.drop, 0.25);
   EXPECT_EQ(options.repeat, 0.05);
   EXPECT_EQ(options.jitter_ms, 3.0);
+  EXPECT_EQ(options.distance_m, 1.5);
   EXPECT_EQ(options.mask_delay, 2);
   EXPECT_EQ(options.mask_grow_px, 6);
   EXPECT_EQ(options.mask_flicker, 0.1);

@@ -20,4 +20,12 @@ using BlockMeans = std::array<float, 9>;
 /// chi-squared with three degrees of freedom, divided by three.
 inline constexpr float kThirdOrderMedian = 0.789F;
 
+/// How many times the variance of a block's mean is what ThirdOrderVariance() says of it, where
+/// noise goes on from block to block.
+/// @param growth How many times larger that variance, times the pixels of a block, is for blocks
+///     twice as wide: 1 for white noise. The answer follows it alone, within a tenth, for Gaussian
+///     correlation exp(-r^2 / (4 s^2)) of any s up to 0.9 blocks. What grows by more is not noise
+///     but surface of third order, and answered by 1.
+[[nodiscard]] float CorrelationFactor(float growth) noexcept;
+
 }  // namespace disflow

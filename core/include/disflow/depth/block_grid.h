@@ -39,12 +39,14 @@ class BlockGrid {
 
   /// Blocks as small as the number of samples allows.
   /// @param interior Object pixels away from the outline.
+  /// @param least_px Their edge at least.
   /// @param sums Memory for the time being.
   /// @return How many of them have no depth.
   template <class Mask>
   int Build(const DepthReader& depth, const Mask& interior, const SamplerConfig& config,
-            Sums& sums) noexcept {
+            int least_px, Sums& sums) noexcept {
     ChooseBlockSize(interior, config);
+    block_px_ = std::max(block_px_, std::min(least_px, config.max_block_px));
     int without_depth = 0;
     while (!LayOutGrid(interior.box()) || !SumBlocks(depth, interior, sums, without_depth))
       ++block_px_;
@@ -71,9 +73,16 @@ class BlockGrid {
     while (begin < end && grid_[Index(begin, row)] == kEmptyBlock) ++begin;
     return begin;
   }
-  /// Whether a block has its eight neighbours in the grid.
-  [[nodiscard]] bool HasRing(int column, int row) const noexcept {
-    return column >= 1 && row >= 1 && column + 1 < columns_ && row + 1 < rows_;
+  /// Over all pixels that have one; 0 if none has [1/m].
+  [[nodiscard]] float MeanInverseDepth() const noexcept {
+    float n = 0.0F;
+    float w = 0.0F;
+    for (int i = kEmptyBlock + 1; i < filled_; ++i) {
+      const PixelMoments& block = moments_[static_cast<std::size_t>(i)];
+      n += block.n;
+      w += block.n * block.w_reference + block.w;
+    }
+    return n > 0.0F ? w / n : 0.0F;
   }
 
   /// The surface sample that was made of a block.

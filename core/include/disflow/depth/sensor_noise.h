@@ -39,26 +39,16 @@ class SensorNoise {
 
   /// The noise per pixel that explains how far the means of blocks scatter: larger than that of
   /// single pixels where neighbouring pixels err alike, as with any real sensor.
-  template <class Grid>
+  /// @tparam kSide Edge of the blocks that are compared, in blocks of the grid.
+  template <int kSide, class Grid>
   [[nodiscard]] float BlockNoise(const Grid& grid) noexcept {
     constexpr int kMinWindows = 8;
-    constexpr float kFull = 0.9F;
-    const auto pixels = static_cast<float>(grid.block_px() * grid.block_px());
+    const auto pixels = static_cast<float>(kSide * kSide * grid.block_px() * grid.block_px());
     int count = 0;
     const int stride = std::max(1, grid.columns() * grid.rows() / kNoiseBlocks);
     for (int i = 0; i < grid.columns() * grid.rows() && count < kNoiseBlocks; i += stride) {
-      const int column = i % grid.columns();
-      const int row = i / grid.columns();
-      if (!grid.HasRing(column, row)) continue;
       BlockMeans means;
-      float fewest = pixels;
-      for (int k = 0; k < 9; ++k) {
-        const PixelMoments& moments = grid.block(column + k % 3 - 1, row + k / 3 - 1);
-        fewest = std::min(fewest, moments.n);
-        means[static_cast<std::size_t>(k)] =
-            moments.w_reference + moments.w / std::max(moments.n, 1.0F);
-      }
-      if (fewest < kFull * pixels) continue;
+      if (!MeansOf<kSide>(grid, i % grid.columns(), i / grid.columns(), pixels, means)) continue;
       residuals_[static_cast<std::size_t>(count++)] = ThirdOrderVariance(means);
     }
     return count < kMinWindows ? 0.0F
@@ -66,6 +56,29 @@ class SensorNoise {
   }
 
  private:
+  /// The means of a window of 3x3 squares, each of kSide x kSide blocks.
+  /// @param pixels Of a square.
+  /// @return false unless all squares are in the grid and full.
+  template <int kSide, class Grid>
+  [[nodiscard]] static bool MeansOf(const Grid& grid, int column, int row, float pixels,
+                                    BlockMeans& means) noexcept {
+    constexpr float kFull = 0.9F;
+    if (column + 3 * kSide > grid.columns() || row + 3 * kSide > grid.rows()) return false;
+    for (int k = 0; k < 9; ++k) {
+      float n = 0.0F;
+      float w = 0.0F;
+      for (int i = 0; i < kSide * kSide; ++i) {
+        const PixelMoments& block =
+            grid.block(column + kSide * (k % 3) + i % kSide, row + kSide * (k / 3) + i / kSide);
+        n += block.n;
+        w += block.n * block.w_reference + block.w;
+      }
+      if (n < kFull * pixels) return false;
+      means[static_cast<std::size_t>(k)] = w / n;
+    }
+    return true;
+  }
+
   /// Of the first ones; 0 if there are none.
   [[nodiscard]] float MedianResidual(int count) noexcept {
     return MedianOf(residuals_.data(), residuals_.data() + count);

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "disflow/config.h"
+#include "disflow/depth/block_contrasts.h"
 #include "disflow/depth/block_grid.h"
 #include "disflow/depth/curved_window.h"
 #include "disflow/depth/depth_reader.h"
@@ -49,12 +50,9 @@ class SurfaceSampler {
               const SamplerConfig& config, Samples& samples, Counters& counters) noexcept {
     samples.clear();
     samples_ = &samples;
-    counters.pixels_out_of_range += static_cast<std::uint32_t>(
-        grid_.Build(depth, interior, config, passes_.template Begin<typename Grid::Sums>()));
-    noise_std_ = config.inverse_depth_std_per_m > 0.0F
-                     ? config.inverse_depth_std_per_m
-                     : std::max({noise_.PixelNoise(grid_), noise_.BlockNoise(grid_),
-                                 config.min_inverse_depth_std_per_m});
+    counters.pixels_out_of_range +=
+        static_cast<std::uint32_t>(BuildGrid(depth, camera, interior, config));
+    MeasureNoise(config);
     auto& windows = passes_.template Begin<WholeWindows>();
     for (int row = 0; row < grid_.rows(); ++row) {
       // Many windows at a time, for vector instructions.
@@ -89,6 +87,54 @@ class SurfaceSampler {
  private:
   using Grid = BlockGrid<Limits>;
 
+  /// Blocks as small as the number of samples allows, but so wide that noise leaves the planes of
+  /// their windows a normal: far objects have few pixels, and those err the most.
+  /// @return How many pixels have no depth.
+  template <class Mask>
+  int BuildGrid(const DepthReader& depth, const PinholeCamera& camera, const Mask& interior,
+                const SamplerConfig& config) noexcept {
+    auto& sums = passes_.template Begin<typename Grid::Sums>();
+    const int without_depth = grid_.Build(depth, interior, config, 0, sums);
+    squares_std_ = noise_.template BlockNoise<2>(grid_);
+    // Fewer blocks than this leave less to register than their better normals bring.
+    constexpr float kFewestBlocks = 150.0F;
+    const float most_px = std::sqrt(static_cast<float>(interior.count()) / kFewestBlocks);
+    const auto least_px = static_cast<int>(std::fmin(EdgeForNormals(camera, config), most_px));
+    if (least_px <= grid_.block_px()) return without_depth;
+    (void)grid_.Build(depth, interior, config, least_px, sums);
+    squares_std_ = noise_.template BlockNoise<2>(grid_);
+    return without_depth;
+  }
+
+  /// Edge of blocks, in pixels, at which a window that faces the camera has its normal to
+  /// SamplerConfig::normal_std_rad. The slope of a plane through W x W pixels is known to
+  /// sqrt(12) / W^2 times their noise; and W is three blocks.
+  [[nodiscard]] float EdgeForNormals(const PinholeCamera& camera,
+                                     const SamplerConfig& config) const noexcept {
+    constexpr float kBlocks = 3.0F;
+    constexpr float kRootOf12 = 3.4641016F;
+    const float w = grid_.MeanInverseDepth();
+    if (!(w > 0.0F)) return 0.0F;
+    // Of squares of blocks: blocks may be smaller than what errs alike, which hides the noise.
+    const float noise_std =
+        config.inverse_depth_std_per_m > 0.0F ? config.inverse_depth_std_per_m : squares_std_;
+    const float tilt_px2 = kRootOf12 * noise_std * camera.fx_px / w;
+    return std::round(std::sqrt(tilt_px2 / config.normal_std_rad) / kBlocks);
+  }
+
+  void MeasureNoise(const SamplerConfig& config) noexcept {
+    mean_noise_factor_ = 1.0F;
+    noise_std_ = config.inverse_depth_std_per_m;
+    if (noise_std_ > 0.0F) return;
+    const float blocks_std = noise_.template BlockNoise<1>(grid_);
+    noise_std_ =
+        std::max({noise_.PixelNoise(grid_), blocks_std, config.min_inverse_depth_std_per_m});
+    if (!(blocks_std > 0.0F)) return;
+    const float growth = squares_std_ / blocks_std;
+    const float means_std = blocks_std * std::sqrt(CorrelationFactor(growth * growth));
+    mean_noise_factor_ = std::fmax(1.0F, means_std / noise_std_);
+  }
+
   /// @param whole The block's whole window.
   void FitBlock(const PinholeCamera& camera, const SamplerConfig& config, int column, int row,
                 const WholeWindow& whole, Samples& samples, Counters& counters) noexcept {
@@ -121,8 +167,11 @@ class SurfaceSampler {
   [[nodiscard]] InverseDepthPlane BestPlane(const SamplerConfig& config, int column, int row,
                                             const WholeWindow& whole, const PixelMoments& own,
                                             float& bend) const noexcept {
-    const float noise_variance = noise_std_ * noise_std_;
-    const float limit = config.max_residual_sigmas * config.max_residual_sigmas * noise_variance;
+    const float limit_std = config.max_residual_sigmas * noise_std_;
+    const float limit = limit_std * limit_std;
+    // What the pixels of a block have in common moves its mean and leaves no residual.
+    const float means_std = mean_noise_factor_ * noise_std_;
+    const float means_variance = means_std * means_std;
     const float own_u = own.u / own.n;
     const float own_v = own.v / own.n;
     const float own_w = own.w_reference + own.w / own.n;
@@ -137,7 +186,7 @@ class SurfaceSampler {
       if (i == 0) {
         const CurvedWindow curved = CurvedWindow::Fit(
             whole.bends, plane, static_cast<float>(grid_.block_px() * grid_.block_px()),
-            noise_variance);
+            means_variance);
         if (curved.valid &&
             curved.residual_variance <= limit + kRipple * allowed_bend * allowed_bend) {
           bend = curved.bend;
@@ -147,7 +196,7 @@ class SurfaceSampler {
       }
       if (plane.residual_variance > limit + allowed_bend * allowed_bend) continue;
       const float deviation = own_w - plane.At(own_u, own_v);
-      const float expected = noise_variance * (1.0F / own.n + plane.Leverage(own_u, own_v));
+      const float expected = means_variance * (1.0F / own.n + plane.Leverage(own_u, own_v));
       if (deviation * deviation > 9.0F * expected + allowed_bend * allowed_bend) continue;
       if (!best.valid || plane.residual_variance < best.residual_variance) {
         best = plane;
@@ -205,6 +254,9 @@ class SurfaceSampler {
   SensorNoise noise_;
   const Samples* samples_ = nullptr;  ///< Of the last frame, for SurfaceAt().
   float noise_std_ = 0.0F;
+  float squares_std_ = 0.0F;  ///< By squares of 2x2 blocks.
+  /// How much larger the noise per pixel is that explains how far the means of blocks are off.
+  float mean_noise_factor_ = 1.0F;
 };
 
 }  // namespace disflow

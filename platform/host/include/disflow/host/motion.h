@@ -18,14 +18,15 @@ struct Workspace {
 };
 
 /// The largest box at 0.55 m or more in which a sphere of that radius stays inside of the image.
+/// @param distance_m The box is no nearer than this.
 [[nodiscard]] Workspace FitWorkspace(const PinholeCamera& camera, int width_px, int height_px,
-                                     double radius_m);
+                                     double radius_m, double distance_m = 0.0);
 
 /// The same for several objects, one behind the other: their spheres never touch, and the nearer
 /// ones pass in front of the farther ones.
 [[nodiscard]] std::vector<Workspace> StackWorkspaces(const PinholeCamera& camera, int width_px,
-                                                     int height_px,
-                                                     std::span<const double> radii_m);
+                                                     int height_px, std::span<const double> radii_m,
+                                                     double distance_m = 0.0);
 
 /// An object's motion in the world; a pure function of time.
 class ObjectMotion {

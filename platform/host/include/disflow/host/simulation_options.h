@@ -91,6 +91,8 @@ struct SimulationOptions {
   SupportKind support = SupportKind::kNone;
   /// The object that is not there from 1 to 2 s, from 1 on; 0 = none.
   int hide = 0;
+  /// The object's centre comes no nearer than this; 0: as near as all of it stays in view.
+  double distance_m = 0.0;
   double drop = 0.0;    ///< Share of frames that are lost; never the first.
   double repeat = 0.0;  ///< Share of frames that show the image before them again; never the first.
   double jitter_ms = 0.0;  ///< Stamps are off by up to this, and by less than half a period.
