@@ -70,12 +70,19 @@ class RosSubscription {
   /// Calls `take(message)` for what has come in, at most kBatch messages; never waits.
   template <class Take>
   void TakeAll(Take&& take) {
+    TakeAllOf([](dds_instance_handle_t) { return true; }, take);
+  }
+
+  /// As TakeAll(), of those writers for which `accept(writer)` is true; of others it is lost.
+  template <class Accept, class Take>
+  void TakeAllOf(Accept&& accept, Take&& take) {
     constexpr std::size_t kBatch = 32;
     std::array<void*, kBatch> messages{};
     std::array<dds_sample_info_t, kBatch> infos;
     const int count = dds_take(reader_, messages.data(), infos.data(), kBatch, kBatch);
     for (std::size_t i = 0; i < static_cast<std::size_t>(std::max(count, 0)); ++i) {
-      if (infos[i].valid_data) take(*static_cast<const Message*>(messages[i]));
+      if (!infos[i].valid_data || !accept(infos[i].publication_handle)) continue;
+      take(*static_cast<const Message*>(messages[i]));
     }
     if (count > 0) (void)dds_return_loan(reader_, messages.data(), count);
   }
