@@ -55,7 +55,7 @@ export class Player {
   }
   /** Runs disflow_track, which has not heard anybody yet. */
   async run(...options) {
-    await this.peer.do("subscribe", this.status, ddsType("diagnostic_msgs/DiagnosticArray"), "reliable", file(`${this.name}.status`));
+    await this.peer.do("subscribe", this.status, ddsType("diagnostic_msgs/DiagnosticArray"), "reliable", file(`${this.name.replaceAll("/", "_")}.status`));
     this.child = run(...options);
   }
   /** Runs disflow_track until it has its first image tracked. */

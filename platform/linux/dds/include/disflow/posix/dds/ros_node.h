@@ -154,7 +154,8 @@ class RosNode {
   struct Options {
     DdsNetwork network;
     std::string name = "disflow";
-    bool before_iron = false;  ///< Announce the node as ROS 2 Humble and older understand it.
+    std::string node_namespace;  ///< "/robot1"; empty: none.
+    bool before_iron = false;    ///< Announce the node as ROS 2 Humble and older understand it.
   };
 
   RosNode() = default;
@@ -199,6 +200,10 @@ class RosNode {
   [[nodiscard]] hal::Fault Announce();
 
   [[nodiscard]] const Options& options() const noexcept { return options_; }
+  /// With its namespace: "/robot1/disflow".
+  [[nodiscard]] std::string full_name() const {
+    return options_.node_namespace + "/" + options_.name;
+  }
   [[nodiscard]] dds_entity_t participant() const noexcept { return participant_; }
 
   /// @return true if anything of this node is listened to.
