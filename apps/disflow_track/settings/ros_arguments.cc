@@ -83,7 +83,8 @@ class Reader {
   static Rule Split(const std::string& text, const std::string& word) {
     const std::string_view rule = text;
     const std::size_t assign = rule.find(kAssign);
-    const std::string where = std::string(kBegin) + " " + word + " " + posix::ShownText(text) + ": ";
+    const std::string where =
+        std::string(kBegin) + " " + word + " " + posix::ShownText(text) + ": ";
     if (assign == std::string_view::npos || assign == 0 || assign + kAssign.size() == rule.size())
       Refuse(where, "is not NAME:=VALUE");
     if (rule.substr(0, assign).find(':') != std::string_view::npos)
@@ -189,9 +190,10 @@ void CheckTopicsAreUsed(const RosArguments& ros, const Options& options) {
   for (const RosArguments::Topic& topic : ros.topics) {
     const bool of_sensor = Holds(kOfSensor, topic.option);
     if (of_sensor ? IsDdsAddress(options.sensor) : !options.dds_link.empty()) continue;
-    Refuse(std::string(kBegin) + " -r " + topic.option + ":=" + posix::ShownText(topic.topic) + ": ",
-           of_sensor ? "needs a sensor of ROS 2: --sensor dds:domain=0"
-                     : "needs a link to ROS 2: --link dds:domain=0");
+    Refuse(
+        std::string(kBegin) + " -r " + topic.option + ":=" + posix::ShownText(topic.topic) + ": ",
+        of_sensor ? "needs a sensor of ROS 2: --sensor dds:domain=0"
+                  : "needs a link to ROS 2: --link dds:domain=0");
   }
 }
 

@@ -14,8 +14,7 @@ using Words = std::vector<std::string>;
 
 /// A program that is fed by ROS 2 and speaks to it, with what ROS hands over.
 Options Node(const Words& of_ros) {
-  Words all = {"--sensor", "dds:domain=3&depth=/d", "--link", "dds:domain=3&mask=/m",
-               "--ros-args"};
+  Words all = {"--sensor", "dds:domain=3&depth=/d", "--link", "dds:domain=3&mask=/m", "--ros-args"};
   all.insert(all.end(), of_ros.begin(), of_ros.end());
   return Parsed(all);
 }
@@ -56,9 +55,8 @@ TEST(RosArguments, RelativeTopics_AreTheNamespacesAndTildeIsTheNode) {
 }
 
 TEST(RosArguments, Section_EndsWithTwoDashesAndMayComeAgain) {
-  const Options options =
-      Parsed({"--ros-args", "-r", "depth:=/a", "--", "--sensor", "dds:domain=1", "--frames", "7",
-              "--ros-args", "-r", "__node:=eye"});
+  const Options options = Parsed({"--ros-args", "-r", "depth:=/a", "--", "--sensor", "dds:domain=1",
+                                  "--frames", "7", "--ros-args", "-r", "__node:=eye"});
   const DdsSensorAddress sensor = ParseDdsSensorAddress(options.sensor);
   EXPECT_EQ(sensor.depth_topic, "/a");
   EXPECT_EQ(sensor.name, "eye");
@@ -66,9 +64,12 @@ TEST(RosArguments, Section_EndsWithTwoDashesAndMayComeAgain) {
 }
 
 TEST(RosArguments, Parameters_AreSettingsAndOptionsAndYieldToWhatIsTyped) {
-  const Words of_ros = {"-p", "registration.iterations:=9",         "-p", "use_sim_time:=false",
-                        "-p", "object.registration.iterations:=12", "-p", "run.rate:=realtime",
-                        "-p", "run.range:=[0.2, 1.5]",              "-p", "run.headless:=true"};
+  const Words of_ros = {"-p", "registration.iterations:=9",
+                        "-p", "use_sim_time:=false",
+                        "-p", "object.registration.iterations:=12",
+                        "-p", "run.rate:=realtime",
+                        "-p", "run.range:=[0.2, 1.5]",
+                        "-p", "run.headless:=true"};
   const Options options = Node(of_ros);
   EXPECT_EQ(options.objects.at(0).config.registration.iterations, 12);
   EXPECT_EQ(options.objects.at(0).config.segmenter.max_range_m, 1.5F);
@@ -101,17 +102,17 @@ TEST_F(RosArgumentsAndFile, ParametersFile_IsThatOfTheNodeInItsNamespaceAndSingl
   single.insert(single.end(), {"-p", "registration.iterations:=8"});
   EXPECT_EQ(iterations(Node(with(single))), 8);
   // Without an address the node is who ROS says.
-  Words simulated = with({"--sensor", "sim:box", "--ros-args", "-r", "__node:=eye", "-r",
-                          "__ns:=/robot1"});
+  Words simulated =
+      with({"--sensor", "sim:box", "--ros-args", "-r", "__node:=eye", "-r", "__ns:=/robot1"});
   EXPECT_EQ(iterations(Parsed(simulated)), 6);
 }
 
 TEST_F(RosArgumentsAndFile, AddressesOfTheFile_AreToldAsThoseThatWereTyped) {
-  test::WriteFile(Path("params.yaml"),
-                  "/**:\n  ros__parameters:\n    run: {sensor: 'dds:domain=4', link: 'dds:domain=4'}\n");
-  const Options options =
-      Parsed({"--ros-args", "-r", "depth:=/a", "-r", "__node:=eye", "-r", "mask:=/m",
-              "--params-file", Path("params.yaml")});
+  test::WriteFile(
+      Path("params.yaml"),
+      "/**:\n  ros__parameters:\n    run: {sensor: 'dds:domain=4', link: 'dds:domain=4'}\n");
+  const Options options = Parsed({"--ros-args", "-r", "depth:=/a", "-r", "__node:=eye", "-r",
+                                  "mask:=/m", "--params-file", Path("params.yaml")});
   EXPECT_EQ(ParseDdsSensorAddress(options.sensor).depth_topic, "/a");
   EXPECT_EQ(ParseDdsAddress(options.dds_link).name, "eye");
   EXPECT_EQ(ParseDdsAddress(options.dds_link).mask_topic, "/m");
@@ -124,7 +125,8 @@ TEST(RosArguments, WhatMeansNothingHere_IsNamedWithWhatWould) {
     const char* helps;
   };
   for (const Wrong& wrong : {
-           Wrong{{"-r", "/disflow/object/pose:=/pose"}, "/disflow/object/pose:=/pose", "depth, info"},
+           Wrong{
+               {"-r", "/disflow/object/pose:=/pose"}, "/disflow/object/pose:=/pose", "depth, info"},
            Wrong{{"-r", "disflow:depth:=/a"}, "disflow:depth", "before the first colon"},
            Wrong{{"-r", "depth=/a"}, "depth=/a", "NAME:=VALUE"},
            Wrong{{"-r", "depth:="}, "depth:=", "NAME:=VALUE"},
@@ -134,7 +136,9 @@ TEST(RosArguments, WhatMeansNothingHere_IsNamedWithWhatWould) {
            Wrong{{"-r", "__ns:=/a//&"}, "/a//&", "no &"},
            Wrong{{"-r", "__ns:=/a/"}, "/a/", "no namespace"},
            Wrong{{"-r", "__node:=a b"}, "a b", "no ROS name"},
-           Wrong{{"-p", "registration.iterations:=99"}, "registration.iterations:=99", "out of range"},
+           Wrong{{"-p", "registration.iterations:=99"},
+                 "registration.iterations:=99",
+                 "out of range"},
            Wrong{{"-p", "registration.iterations:=[1"}, "registration.iterations:=[1", ""},
            Wrong{{"-p", "speed:=1"}, "speed:=1", "no parameter speed"},
            Wrong{{"-p", "speed"}, "-p speed", "NAME:=VALUE"},
