@@ -61,8 +61,8 @@ class RandomInputs {
       default: {  // the rest is another one's
         const Bytes& other = seeds_[Below(seeds_.size())];
         bytes.resize(place);
-        bytes.insert(bytes.end(), other.begin() + static_cast<std::ptrdiff_t>(
-                                                      std::min(place, other.size())),
+        bytes.insert(bytes.end(),
+                     other.begin() + static_cast<std::ptrdiff_t>(std::min(place, other.size())),
                      other.end());
         return;
       }
