@@ -154,8 +154,8 @@ class RosNode {
   struct Options {
     DdsNetwork network;
     std::string name = "disflow";
-    std::string node_namespace;  ///< "/robot1"; empty: none.
-    bool before_iron = false;    ///< Announce the node as ROS 2 Humble and older understand it.
+    std::string node_namespace{};  ///< "/robot1"; empty: none.
+    bool before_iron = false;      ///< Announce the node as ROS 2 Humble and older understand it.
   };
 
   RosNode() = default;
