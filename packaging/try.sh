@@ -51,6 +51,10 @@ for package in disflow libdisflow0.1 libdisflow-dev disflow-doc ${native:+python
   done <<<"$compiled_in"
 done
 
+# Who reads the pages has no tree beside them.
+dpkg-deb -x "$(package_of disflow-doc)" "$work/pages"
+python3 -B "$tree/tests/docs/installed_links.py" "$work/pages/usr/share/doc/disflow" || die "pages lead to what is not in their package"
+
 lintian --allow-root --fail-on error,warning "$folder"/*.deb || die "lintian finds faults"
 
 # The shared library names itself as its package does, and needs nothing but C's library.

@@ -3,7 +3,7 @@
 
     ros2 launch disflow.launch.py depth:=/camera/camera/depth/image_rect_raw extra:='--object name=box,seed=320:180'
 
-disflow_track is no node of rclcpp's, so topics are arguments here and not remappings.
+In a launch file of your own, names and topics may as well be remappings: disflow_track takes --ros-args.
 """
 import os
 import shlex
@@ -25,6 +25,7 @@ _ARGUMENTS = (
     ("parameters", "", "yes: whoever is in the domain may change settings by ros2 param"),
     ("lifecycle", "", "yes: and pause and resume by ros2 lifecycle"),
     ("name", "disflow", "name of the node and first part of its topics"),
+    ("namespace", "", "what stands before them, /robot1; empty: nothing"),
     ("domain", os.environ.get("ROS_DOMAIN_ID", "0") or "0", "ROS_DOMAIN_ID"),
     ("wait", "60", "seconds to wait for the first image"),
     ("program", "disflow_track", "the program, or a path to it"),
@@ -43,8 +44,8 @@ def command(value):
             given.append("ros=humble")
         return "dds:" + "&".join(given)
 
-    sensor = address("domain", "name", "depth", "info", "rectified", "wait")
-    link = address("domain", "name", "camera", "mask", "world", "reset", "choose", "parameters", "lifecycle")
+    sensor = address("domain", "name", "namespace", "depth", "info", "rectified", "wait")
+    link = address("domain", "name", "namespace", "camera", "mask", "world", "reset", "choose", "parameters", "lifecycle")
     return [value("program"), "--headless", "--sensor", sensor, "--link", link, *shlex.split(value("extra"))]
 
 

@@ -235,8 +235,8 @@ class Program {
   dds_entity_t participant_ = node_->participant();
   apps::ObjectChannel channel_{"object", 0, [] { return nullptr; }};
   std::vector<apps::ObjectChannel*> channels_ = {&channel_};
-  apps::DdsParameters parameters_{"disflow", channels_, *node_};
-  apps::DdsLifecycle lifecycle_{"disflow", channels_, *node_};
+  apps::DdsParameters parameters_{node_->full_name(), channels_, *node_};
+  apps::DdsLifecycle lifecycle_{node_->full_name(), channels_, *node_};
   apps::DdsChoices choices_{Address(), "/disflow/object/", true, {kWidth_px, kHeight_px}, channel_,
                             *node_};
   apps::PoseMailbox poses_;

@@ -24,7 +24,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   try {
     Config config;
-    (void)apps::LoadRosParameters(file.path(), "disflow", config);
+    (void)apps::LoadRosParameters(file.path(), "/disflow", config);
   } catch (const apps::Failure& failure) {
     fuzz::Require(std::string(failure.what()).find(file.path()) == 0);
   }

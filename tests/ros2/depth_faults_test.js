@@ -4,56 +4,27 @@
 import assert from "node:assert/strict";
 import { join } from "node:path";
 import { before, test } from "node:test";
-import { rows } from "./frames.js";
-import { decode, graphEntry, writerOf } from "./messages.js";
+import { ballPlayer, maskMessage, message, stamps, transformMessage } from "./ball.js";
+import { decode, graphEntry } from "./messages.js";
 import { Peer } from "./peer.js";
-import { headerOf, Player, repeat } from "./player.js";
+import { headerOf, repeat } from "./player.js";
 import { atEnd, domain, file, ownBin, run, samplesOf, sleep, until } from "./program.js";
 import { trajectory } from "./trajectory.js";
 
-const camera = { width: 80, height: 60, fx: 80, fy: 80, cx: 40, cy: 30 };
 const network = `domain=${domain}&interface=lo&peer=127.0.0.1`;
-const image = writerOf("sensor_msgs/Image");
-const tf = writerOf("tf2_msgs/TFMessage");
-const stamps = Array.from({ length: 40 }, (_, i) => 1789012345000000000n + BigInt(i) * 33333333n);
 let peer;
 before(async () => (peer = await Peer.start(join(ownBin, "ros2_peer"), domain)));
 atEnd(() => peer.stop());
 
-/** A ball in front of a wall; no two images of it are the same. */
-function ball(i) {
-  const values = new Uint16Array(80 * 60).map((_, k) => {
-    const [u, v] = [(k % 80) - 40, Math.floor(k / 80) - 30];
-    const inside = 20 * 20 - u * u - v * v;
-    return inside > 0 ? 900 - 10 * Math.sqrt(inside) + ((k * (i + 7)) % 3) : 2000;
-  });
-  return rows({ width: 80, height: 60 }, values, 160, false);
-}
-const message = (i, change = {}) =>
-  image.writeMessage({
-    header: headerOf(stamps[i]), height: 60, width: 80, encoding: "16UC1", is_bigendian: 0, step: 160, data: ball(i), ...change,
-  });
-
-function playerOf(name) {
-  const player = new Player({ peer, camera, name, qos: "reliable", stamps });
-  player.send = (bytes) => player.publish(`/${name}/depth/image_rect_raw`, "sensor_msgs/Image", "reliable", bytes);
-  player.sendImage = (i) => player.send(message(i));
-  player.sendRubbish = () => player.send(message(0, { width: 0, height: 0, data: new Uint8Array() }));
-  return player;
-}
+const playerOf = (name) => ballPlayer(peer, name, "reliable");
 const sensorOf = (name) => `dds:depth=/${name}/depth/image_rect_raw&name=${name}&${network}`;
 
 test("Depth, masks and tf come in and poses go out by one node", async () => {
   const player = playerOf("together");
   await peer.do("subscribe", "ros_discovery_info", "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_", "latched", file("graph"));
-  const mask = () => new Uint8Array(80 * 60).map((_, k) => ((k % 80) - 40) ** 2 + (Math.floor(k / 80) - 30) ** 2 < 400 ? 1 : 0);
   player.sendImage = async (i) => {
-    const header = headerOf(stamps[i]);
-    const moving = { header: { ...header, frame_id: "map" }, child_frame_id: "eye",
-      transform: { translation: { x: 1, y: 2, z: 3 }, rotation: { x: 0, y: 0, z: 0, w: 1 } } };
-    await player.publish("/tf", "tf2_msgs/TFMessage", "reliable", tf.writeMessage({ transforms: [moving] }));
-    await player.publish("/together/mask", "sensor_msgs/Image", "best_effort",
-      image.writeMessage({ header, height: 60, width: 80, encoding: "mono8", is_bigendian: 0, step: 80, data: mask() }));
+    await player.publish("/tf", "tf2_msgs/TFMessage", "reliable", transformMessage(i, "map", "eye"));
+    await player.publish("/together/mask", "sensor_msgs/Image", "best_effort", maskMessage(i));
     await player.send(message(i));
   };
   const start = ["--sensor", sensorOf("together"), "--headless", "--csv", file("together.csv")];
@@ -71,7 +42,7 @@ test("Depth, masks and tf come in and poses go out by one node", async () => {
   assert.equal(new Set(participants.map(({ gid }) => String(gid.data))).size, 1, "one participant");
   const { node_entities_info_seq: nodes } = participants.at(-1);
   assert.deepEqual(nodes.map((node) => node.node_namespace + node.node_name), ["/together"]);
-  assert.equal(nodes[0].reader_gid_seq.length, 6, "depth, info, mask, tf, tf_static, one service");
+  assert.equal(nodes[0].reader_gid_seq.length, 9, "depth, mask, one service, and two each of info, tf, tf_static");
   assert.equal(nodes[0].writer_gid_seq.length, 10, "nine topics and one service");
 });
 

@@ -2,10 +2,10 @@
 // Settings as parameters, pause as life cycle, by the services that `ros2 param` and `ros2 lifecycle` call.
 // Usage: node parameters_test.js BIN_FOLDER
 import assert from "node:assert/strict";
-import { writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { before, test } from "node:test";
-import { decode, serviceOf, writerOf } from "./messages.js";
+import { caller } from "./calls.js";
+import { decode } from "./messages.js";
 import { Peer } from "./peer.js";
 import { atEnd, ddsType, domain, file, ownBin, patience, run, samplesOf, sleep, until } from "./program.js";
 
@@ -43,22 +43,7 @@ atEnd(async () => {
   assert.equal(exit, 0, said);
 });
 
-let asked = 0;
-async function call(kind, name, body) {
-  const [group, type] = kind.split("/");
-  const definition = serviceOf(kind);
-  const header = { client: 7n, seq: BigInt(++asked) };
-  writeFileSync(file(`${name}_request`), writerOf(definition.request).writeMessage({ ...header, ...body }));
-  const dds = `${group}::srv::dds_::${type}`;
-  const answer = await peer.do(
-    "call", `rq/disflow/${name}Request`, `${dds}_Request_`, `rr/disflow/${name}Reply`, `${dds}_Response_`, file(`${name}_request`),
-    file(`${name}_reply`),
-  );
-  assert.equal(answer, "answered");
-  const reply = decode(file(`${name}_reply`), definition.response).at(-1);
-  assert.deepEqual([reply.client, reply.seq], [7n, BigInt(asked)]);
-  return reply;
-}
+const call = (...what) => caller(peer, "disflow")(...what);
 const get = async (...names) => (await call("rcl_interfaces/GetParameters", "get_parameters", { names })).values;
 const set = async (...parameters) => (await call("rcl_interfaces/SetParameters", "set_parameters", { parameters })).results;
 const list = async (prefixes, depth) =>

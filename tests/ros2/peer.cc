@@ -10,10 +10,12 @@
 //   count TOPIC                                 samples received so far
 //   publish TOPIC TYPE QOS FILE                 one sample, the bytes of FILE, once somebody
 //                                               listens
+//   keep TOPIC TYPE QOS FILE                    the same at once, for those who come later
 //   unpublish TOPIC                             takes the writer away again
 //   call REQUEST_TOPIC TYPE REPLY_TOPIC TYPE REQUEST_FILE REPLY_FILE
 //
-// QOS is reliable, latched or best_effort.
+// QOS is reliable, latched (reliable, also for those who come later), best_effort or
+// best_effort_latched.
 
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <fastrtps/utils/IPLocator.h>
@@ -104,10 +106,10 @@ class Recorder final : public dds::DataReaderListener {
 
 template <class Qos>
 void Apply(const std::string& name, Qos& qos) {
-  qos.reliability().kind =
-      name == "best_effort" ? dds::BEST_EFFORT_RELIABILITY_QOS : dds::RELIABLE_RELIABILITY_QOS;
-  qos.durability().kind =
-      name == "latched" ? dds::TRANSIENT_LOCAL_DURABILITY_QOS : dds::VOLATILE_DURABILITY_QOS;
+  qos.reliability().kind = name.starts_with("best_effort") ? dds::BEST_EFFORT_RELIABILITY_QOS
+                                                           : dds::RELIABLE_RELIABILITY_QOS;
+  qos.durability().kind = name.ends_with("latched") ? dds::TRANSIENT_LOCAL_DURABILITY_QOS
+                                                    : dds::VOLATILE_DURABILITY_QOS;
   qos.history().kind = dds::KEEP_LAST_HISTORY_QOS;
   qos.history().depth = 100;
   qos.endpoint().history_memory_policy = rtps::DYNAMIC_REUSABLE_MEMORY_MODE;
@@ -151,6 +153,10 @@ class Peer {
     }
     if (word.size() == 5 && word[0] == "publish") {
       return Publish(word[1], word[2], word[3], word[4]) ? "published" : "nobody listens";
+    }
+    if (word.size() == 5 && word[0] == "keep") {
+      Bytes bytes = Read(word[4]);
+      return WriterOf(word[1], word[2], word[3])->write(&bytes) ? "kept" : "not written";
     }
     if (word.size() == 2 && word[0] == "unpublish") {
       return Unpublish(word[1]) ? "unpublished" : "never published";

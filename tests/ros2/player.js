@@ -35,17 +35,32 @@ export class Player {
     writeFileSync(file("sample"), bytes);
     assert.equal(await this.peer.do("publish", "rt" + topic, ddsType(type), qos, file("sample")), "published");
   }
+  infoTopic() {
+    return `/${this.name}/depth/camera_info`;
+  }
+  infoMessage(i, change = {}) {
+    return info.writeMessage({ ...cameraInfo(headerOf(this.stamps[i]), this.camera), ...change });
+  }
   sendInfo(i, change = {}) {
-    const message = { ...cameraInfo(headerOf(this.stamps[i]), this.camera), ...change };
-    return this.publish(`/${this.name}/depth/camera_info`, "sensor_msgs/CameraInfo", this.qos, info.writeMessage(message));
+    return this.publish(this.infoTopic(), "sensor_msgs/CameraInfo", this.qos, this.infoMessage(i, change));
+  }
+  /** Once, without anybody there: for those who come later. */
+  async keepInfo(i) {
+    writeFileSync(file("sample"), this.infoMessage(i));
+    const words = ["keep", "rt" + this.infoTopic(), ddsType("sensor_msgs/CameraInfo"), "latched", file("sample")];
+    assert.equal(await this.peer.do(...words), "kept");
   }
   async tracked(count) {
     return Number(await this.peer.do("count", this.status)) >= count;
   }
+  /** Runs disflow_track, which has not heard anybody yet. */
+  async run(...options) {
+    await this.peer.do("subscribe", this.status, ddsType("diagnostic_msgs/DiagnosticArray"), "reliable", file(`${this.name.replaceAll("/", "_")}.status`));
+    this.child = run(...options);
+  }
   /** Runs disflow_track until it has its first image tracked. */
   async start(...options) {
-    await this.peer.do("subscribe", this.status, ddsType("diagnostic_msgs/DiagnosticArray"), "reliable", file(`${this.name}.status`));
-    this.child = run(...options);
+    await this.run(...options);
     // It says what is wrong as long as it has no image: then it hears.
     await repeat(() => this.sendRubbish(), () => /0 x 0 pixels/.test(this.child.said()));
     await this.sendImage(0);

@@ -33,8 +33,8 @@ DdsInputs::DdsInputs(const DdsAddress& address, posix::RosNode& node, PoseMailbo
                      MaskMailbox* masks)
     : poses_(poses), masks_(masks), transforms_(address.world_frame, address.camera_frame) {
   if (poses_ != nullptr) {
-    Require(node.Subscribe("/tf", RosQos::kReliable, tf_));
-    Require(node.Subscribe("/tf_static", RosQos::kLatchedMany, tf_static_));
+    Require(tf_.Subscribe(node, "/tf", RosQos::kReliable));
+    Require(tf_static_.Subscribe(node, "/tf_static", RosQos::kLatchedMany));
   }
   // Best effort takes from reliable writers too.
   if (masks_ != nullptr) {

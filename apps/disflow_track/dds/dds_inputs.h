@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "dds/dds_clock.h"
+#include "disflow/posix/dds/ros_any_subscription.h"
 #include "disflow/posix/dds/ros_node.h"
 #include "disflow/posix/ros/ros_transforms.h"
 #include "input/mask_mailbox.h"
@@ -37,8 +38,8 @@ class DdsInputs {
   PoseMailbox* poses_;
   MaskMailbox* masks_;
   posix::RosTransforms transforms_;
-  posix::RosSubscription<posix::ros::TFMessage> tf_;
-  posix::RosSubscription<posix::ros::TFMessage> tf_static_;
+  posix::RosAnySubscription<posix::ros::TFMessage> tf_;
+  posix::RosAnySubscription<posix::ros::TFMessage> tf_static_;
   posix::RosSubscription<posix::ros::Image> images_;
 };
 

@@ -38,7 +38,7 @@ ros::TransitionDescription TransitionFrom(bool is_active) {
 DdsLifecycle::DdsLifecycle(const std::string& node_name, std::span<ObjectChannel* const> channels,
                            posix::RosNode& node)
     : channels_(channels.begin(), channels.end()) {
-  const std::string prefix = "/" + node_name + "/";
+  const std::string prefix = node_name + "/";
   Require(node.Advertise(prefix + "transition_event", posix::RosQos::kReliable, events_));
   Require(node.Serve(prefix + "get_state", get_state_));
   Require(node.Serve(prefix + "change_state", change_state_));

@@ -15,6 +15,7 @@ namespace disflow::apps {
 /// transitions than these two are refused.
 class DdsLifecycle {
  public:
+  /// @param node_name With its namespace.
   /// @throws Failure kOutputFailed.
   DdsLifecycle(const std::string& node_name, std::span<ObjectChannel* const> channels,
                posix::RosNode& node);

@@ -11,6 +11,11 @@ using posix::RosQos;
 
 constexpr std::int64_t kPathPeriod_ns = 500'000'000;
 
+/// Of an object's topics and services.
+std::string PrefixOf(const posix::RosNode& node, const ObjectChannel& channel) {
+  return node.full_name() + "/" + posix::RosNamePart(channel.name()) + "/";
+}
+
 }  // namespace
 
 DdsObject::DdsObject(const DdsAddress& address, const ImageSize& image, bool is_first,
@@ -24,8 +29,8 @@ DdsObject::DdsObject(const DdsAddress& address, const ImageSize& image, bool is_
       frames_{address.camera_frame, address.name + "/" + posix::RosNamePart(channel.name()),
               address.world_frame},
       status_(address.name + ": " + channel.name()),
-      model_("/" + frames_.object + "/", channel, reader_, node, counters) {
-  const std::string prefix = "/" + frames_.object + "/";
+      model_(PrefixOf(node, channel), channel, reader_, node, counters) {
+  const std::string prefix = PrefixOf(node, channel);
   Require(node.Advertise(prefix + "odometry", RosQos::kReliable, odometry_));
   Require(node.Advertise(prefix + "pose", RosQos::kReliable, pose_));
   Require(node.Advertise(prefix + "twist", RosQos::kReliable, twist_));

@@ -38,8 +38,8 @@ class DdsPublisher {
       objects_.emplace_back(address, image, objects_.empty(), *channel, signal_, clock_, *node_,
                             transforms_, counters_);
     }
-    if (address.may_set) parameters_.emplace(address.name, channels, *node_);
-    if (address.may_pause) lifecycle_.emplace(address.name, channels, *node_);
+    if (address.may_set) parameters_.emplace(node_->full_name(), channels, *node_);
+    if (address.may_pause) lifecycle_.emplace(node_->full_name(), channels, *node_);
     inputs_.emplace(address, *node_, inputs.pose_mailbox(), inputs.mask_mailbox());
     RequireLink(node_->Announce());
     thread_ = std::thread([this] { Serve(); });

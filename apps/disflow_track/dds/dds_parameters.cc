@@ -52,7 +52,7 @@ void AddRange(const RosParameter& parameter, ros::FloatingPointRange& of_numbers
 
 DdsParameters::DdsParameters(const std::string& node_name, std::span<ObjectChannel* const> channels,
                              posix::RosNode& node)
-    : node_("/" + node_name), table_(channels) {
+    : node_(node_name), table_(channels) {
   Require(node.Serve(node_ + "/get_parameters", get_));
   Require(node.Serve(node_ + "/get_parameter_types", types_));
   Require(node.Serve(node_ + "/describe_parameters", describe_));

@@ -13,6 +13,7 @@ namespace disflow::apps {
 /// /parameter_events, where every change is told, whoever made it.
 class DdsParameters {
  public:
+  /// @param node_name With its namespace.
   /// @throws Failure kOutputFailed.
   DdsParameters(const std::string& node_name, std::span<ObjectChannel* const> channels,
                 posix::RosNode& node);

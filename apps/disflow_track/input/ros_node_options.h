@@ -10,6 +10,7 @@ namespace disflow::apps {
 [[nodiscard]] inline posix::RosNode::Options NodeOptions(const DdsNodeAddress& address) {
   return {.network = {address.domain, address.interface, address.peers},
           .name = address.name,
+          .node_namespace = address.node_namespace,
           .before_iron = address.before_iron};
 }
 

@@ -102,6 +102,10 @@ class Reader {
     }
     node_.name = value;
   }
+  void ReadNamespace(std::string_view value) {
+    if (value == "/") return;
+    ReadPath("namespace", value, "namespace", "/robot1", node_.node_namespace);
+  }
   void ReadInterface(std::string_view value) {
     if (!IsText(value, "._-:")) Refuse("interface=" + Shown(value) + " is no network interface");
     node_.interface = value;
@@ -129,10 +133,14 @@ class Reader {
     ReadTopic("info", value, "/camera/depth/camera_info", sensor_.info_topic);
   }
   void ReadTopic(const char* key, std::string_view value, const char* example, std::string& topic) {
+    ReadPath(key, value, "topic", example, topic);
+  }
+  void ReadPath(const char* key, std::string_view value, const char* what, const char* example,
+                std::string& path) {
     if (!IsText(value, "_/") || value.front() != '/' || value.back() == '/') {
-      Refuse(std::string(key) + "=" + Shown(value) + " is no topic, e.g. " + example);
+      Refuse(std::string(key) + "=" + Shown(value) + " is no " + what + ", e.g. " + example);
     }
-    topic = value;
+    path = value;
   }
   void ReadRectified(std::string_view value) { sensor_.rectified = IsYes("rectified", value); }
   void ReadChoose(std::string_view value) { link_.may_choose = IsYes("choose", value); }
@@ -171,9 +179,10 @@ class Reader {
     Side side;
     void (Reader::*read)(std::string_view value);
   };
-  static constexpr std::array<Option, 16> kOptions = {{
+  static constexpr std::array<Option, 17> kOptions = {{
       {"domain", Side::kBoth, &Reader::ReadDomain},
       {"name", Side::kBoth, &Reader::ReadName},
+      {"namespace", Side::kBoth, &Reader::ReadNamespace},
       {"interface", Side::kBoth, &Reader::ReadInterface},
       {"peer", Side::kBoth, &Reader::ReadPeers},
       {"ros", Side::kBoth, &Reader::ReadRos},
@@ -207,8 +216,8 @@ const char* const kDdsSensorHelp =
     "               /compressedDepth. Options: info=TOPIC (CameraInfo; camera_info beside the "
     "images), rectified=yes|no\n"
     "               (by the topic's name), wait=30 (seconds for the first image), and name, "
-    "interface, peer, ros as of\n"
-    "               a link\n";
+    "namespace, interface,\n"
+    "               peer, ros as of a link\n";
 
 bool IsDdsAddress(std::string_view uri) noexcept { return uri.starts_with(kScheme); }
 
@@ -232,6 +241,7 @@ DdsNodeAddress SensorNode(const DdsSensorAddress& sensor, const std::string& lin
     node.*value = sensor.*value;
   };
   unite("name", &DdsNodeAddress::name);
+  unite("namespace", &DdsNodeAddress::node_namespace);
   unite("interface", &DdsNodeAddress::interface);
   unite("peer", &DdsNodeAddress::peers);
   unite("ros", &DdsNodeAddress::before_iron);

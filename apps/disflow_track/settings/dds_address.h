@@ -12,10 +12,13 @@ namespace disflow::apps {
 /// Who this program is to ROS 2, and on which network.
 struct DdsNodeAddress {
   std::uint32_t domain = 0;        ///< As ROS_DOMAIN_ID.
-  std::string name = "disflow";    ///< Of the node; topics are /NAME/OBJECT/….
+  std::string name = "disflow";    ///< Of the node; topics are NAMESPACE/NAME/OBJECT/….
+  std::string node_namespace;      ///< "/robot1"; empty: none.
   std::string interface;           ///< Network interface or its address; empty: any.
   std::vector<std::string> peers;  ///< Hosts to look for beside multicast.
   bool before_iron = false;        ///< ROS 2 Humble or older listens.
+
+  [[nodiscard]] std::string FullName() const { return node_namespace + "/" + name; }
 };
 
 /// What `--link dds:KEY=VALUE&…` says; docs/ros2.md.

@@ -16,6 +16,7 @@
 #include "program/log_target.h"
 #include "settings/choice.h"
 #include "settings/dds_address.h"
+#include "settings/ros_arguments.h"
 #include "settings/rosbag_help.h"
 #include "settings/rotation_options.h"
 #include "settings/setting_sources.h"
@@ -39,7 +40,9 @@ constexpr const char* kLinksAndStatus =
     "    the stamps, if not the images'; send=landing_target|follow_target: instead of ODOMETRY,\n"
     "    for autopilots\n"
     "or ROS 2 (docs/ros2.md):\n"
-    "  dds:domain=N[&name=NODE][&interface=NAME][&peer=HOST,…][&camera=FRAME][&world=FRAME]\n"
+    "  "
+    "dds:domain=N[&name=NODE][&namespace=/"
+    "NAMESPACE][&interface=NAME][&peer=HOST,…][&camera=FRAME][&world=FRAME]\n"
     "      [&mask=TOPIC][&reset=yes][&choose=yes][&parameters=yes][&lifecycle=yes]\n"
     "      [&ros=humble|iron]\n"
     "\n"
@@ -92,8 +95,11 @@ void AddInput(CLI::App& app, Options& options, SettingSources& settings) {
   app.add_option("--params-file", settings.parameter_file,
                  "The same as parameters of ROS 2, YAML, in place of --config (docs/ros2.md)")
       ->type_name("FILE");
+  // Only for --help: TakeRosArguments() has taken it.
   app.add_flag_callback(
-      "--ros-args", [] {}, "Nothing: ROS puts it ahead of --params-file");
+      "--ros-args", [] {},
+      "What ROS 2 hands over, until --: -r depth|info|mask:=TOPIC, -r __node:=NAME, "
+      "-r __ns:=/NAMESPACE, -p PARAMETER:=VALUE, and any option of these here");
   app.add_option("--set", settings.assignments,
                  "One setting, e.g. registration.iterations=10; wins over --config")
       ->type_name("NAME=VALUE")
@@ -304,8 +310,11 @@ Options ParseCommandLine(int argc, char** argv, bool& exit_now, const Config& de
   AddRealtime(app, options.realtime);
   AddOutput(app, options, settings.common);
   AddViewOptions(app, options.view);
+  std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
+  settings.ros = TakeRosArguments(arguments);
+  std::reverse(arguments.begin(), arguments.end());  // as the parser wants them
   try {
-    app.parse(argc, argv);
+    app.parse(std::move(arguments));
   } catch (const CLI::Success& answer) {
     (void)app.exit(answer);
     exit_now = true;
@@ -317,6 +326,7 @@ Options ParseCommandLine(int argc, char** argv, bool& exit_now, const Config& de
   ReadSettings(app, settings, options);
   CheckResolution(options);
   SplitLinks(options);
+  CheckTopicsAreUsed(settings.ros, options);
   if (IsDdsAddress(options.sensor))
     (void)SensorNode(ParseDdsSensorAddress(options.sensor), options.dds_link);
   CheckCameraPose(options);

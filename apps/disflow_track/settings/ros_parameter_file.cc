@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "disflow/posix/shown_text.h"
 #include "settings/refusal.h"
 #include "settings/settings_text.h"
 #include "settings/yaml_place.h"
@@ -16,10 +17,10 @@ namespace {
 constexpr const char* kParameters = "ros__parameters";
 
 /// Whether a file's section of that name is for the node.
-bool IsMeant(std::string name, const std::string& node_name) {
+bool IsMeant(const std::string& name, const std::string& node_name) {
   if (name == "/**" || name == "/*") return true;
-  if (name.starts_with('/')) name.erase(0, 1);
-  return name == node_name;
+  const std::string any_namespace = "/**" + node_name.substr(node_name.rfind('/'));
+  return name == node_name || "/" + name == node_name || name == any_namespace;
 }
 
 class ParameterReader {
@@ -112,7 +113,24 @@ class ParameterReader {
   int count_ = 0;
 };
 
+/// YAML of one value stands nowhere in a file.
+YAML::Node ValueOf(const std::string& where, const std::string& text) {
+  try {
+    return YAML::Load(text);
+  } catch (const YAML::Exception& error) {
+    Refuse(where + ": ", error.msg);
+  }
+}
+
 }  // namespace
+
+void ReadRosParameter(const std::string& assignment, SettingsFile& settings, Config& config) {
+  const std::string where = "-p " + posix::ShownText(assignment);
+  const std::size_t assign = assignment.find(":=");
+  YAML::Node map;
+  map[assignment.substr(0, assign)] = ValueOf(where, assignment.substr(assign + 2));
+  ParameterReader(where, settings, config).ReadMap("", map, 0);
+}
 
 SettingsFile LoadRosParameters(const std::string& file, const std::string& node_name,
                                Config& config) {

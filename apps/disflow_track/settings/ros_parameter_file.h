@@ -11,11 +11,16 @@ namespace disflow::apps {
 /// Reads a file of parameters as ROS 2 has it (`--params-file`, `ros2 param dump`): for a node or
 /// for all, `/**`, what stands under ros__parameters. SECTION.SETTING is one of all objects,
 /// OBJECT.SECTION.SETTING one of an object, run.OPTION an option of the command line.
-/// @param node_name Nodes of other names are passed over.
+/// @param node_name With its namespace: "/robot1/disflow". Nodes of other names are passed over.
 /// @param config Gets the settings of all objects.
 /// @return What else it says.
 /// @throws Failure kWrongUsage naming file, line, parameter and what is wrong with it.
 [[nodiscard]] SettingsFile LoadRosParameters(const std::string& file, const std::string& node_name,
                                              Config& config);
+
+/// The same of one parameter.
+/// @param assignment NAME:=VALUE, the value as in such a file.
+/// @throws Failure kWrongUsage.
+void ReadRosParameter(const std::string& assignment, SettingsFile& settings, Config& config);
 
 }  // namespace disflow::apps

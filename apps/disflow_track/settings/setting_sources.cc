@@ -6,7 +6,6 @@
 #include <array>
 
 #include "program/exit_status.h"
-#include "settings/dds_address.h"
 #include "settings/ros_parameter_file.h"
 #include "settings/settings.h"
 
@@ -66,15 +65,6 @@ void ApplyTyped(const SettingSources& settings, Config& config) {
   for (const std::string& assignment : settings.assignments) ApplySetting(assignment, config);
 }
 
-/// As it was typed: what a file says comes too late for that.
-std::string NodeName(const Options& options) {
-  DdsNodeAddress address;
-  if (IsDdsAddress(options.sensor)) address = ParseDdsSensorAddress(options.sensor);
-  for (const std::string& link : options.links)
-    if (IsDdsAddress(link)) address = ParseDdsAddress(link);
-  return address.name;
-}
-
 /// What the file says of single objects, now that they are known.
 void ApplyNamed(const SettingSources& settings, const std::vector<NamedSetting>& named,
                 std::vector<ObjectOptions>& objects) {
@@ -99,16 +89,22 @@ void ApplyNamed(const SettingSources& settings, const std::vector<NamedSetting>&
 
 void ReadSettings(CLI::App& app, SettingSources& settings, Options& options) {
   SettingsFile file;
+  PutIntoAddresses(settings.ros, options);
   const bool of_ros = !settings.parameter_file.empty();
   if (of_ros && !settings.file.empty())
     throw Failure(kWrongUsage, "settings come from --config or from --params-file, not both");
   if (of_ros || !settings.file.empty()) {
-    file = of_ros ? LoadRosParameters(settings.parameter_file, NodeName(options), options.config)
+    // The node as it was typed: what a file says comes too late for that.
+    file = of_ros ? LoadRosParameters(settings.parameter_file,
+                                      NodeOf(settings.ros, options).FullName(), options.config)
                   : LoadSettings(settings.file, options.config);
-    for (const RunSetting& setting : file.run) ApplyRunSetting(app, setting);
     options.settings_file = of_ros ? settings.parameter_file : settings.file;
-    options.file = file;
   }
+  for (const std::string& parameter : settings.ros.parameters)
+    ReadRosParameter(parameter, file, options.config);
+  for (const RunSetting& setting : file.run) ApplyRunSetting(app, setting);
+  options.file = file;
+  PutIntoAddresses(settings.ros, options);  // those of the file as well
   ApplyTyped(settings, options.config);
   CheckSettings(options.config);
   for (ObjectTable& object : file.objects) ApplyTyped(settings, object.config);

@@ -7,6 +7,7 @@
 
 #include "settings/object_list.h"
 #include "settings/options.h"
+#include "settings/ros_arguments.h"
 
 namespace disflow::apps {
 
@@ -14,6 +15,7 @@ namespace disflow::apps {
 struct SettingSources {
   std::string file;
   std::string parameter_file;  ///< Of ROS, in place of the other.
+  RosArguments ros;
   std::vector<std::string> assignments;
   // Short forms of settings.
   std::vector<int> roi_px;
@@ -23,7 +25,8 @@ struct SettingSources {
   CommonObjectOptions common;
 };
 
-/// The file, then the short forms, then --set; then the objects, which start from these.
+/// The file, then the parameters that ROS handed over, then the short forms, then --set; then the
+/// objects, which start from these.
 /// @param app Has parsed the command line. Options that the file's section [run] gives are set by
 /// it, unless they were typed.
 /// @throws Failure kWrongUsage.

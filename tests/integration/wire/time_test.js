@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 'use strict';
-// usage: node time_test.js DISFLOW.xml DISFLOW_TRACK...
+// usage: node time_test.js udp|tcp|tcp-listen|serial DISFLOW.xml DISFLOW_TRACK...
 // An autopilot whose clock is 1000 s ahead of this machine's, played by node-mavlink. A run sends its poses over four
 // links, with the stamps of the images, of CLOCK_MONOTONIC, of the epoch and of that autopilot: of one frame they must be
 // the same moment, within a millisecond. The autopilot asks for the time as well, and must learn the same clock. Goes on
 // until that holds: on a busy machine a quick answer takes its time.
 const assert = require('assert');
 const {spawn} = require('child_process');
-const dgram = require('dgram');
 const {common} = require('mavlink-mappings');
 const {createMavLinkStream, MavLinkProtocolV2} = require('node-mavlink');
 const {Readable} = require('stream');
+const lines = require('./line');
 const {loadDialect} = require('./mavlink');
 
 const kAhead_ns = 1000n * 1000000000n;
@@ -37,24 +37,21 @@ class Autopilot {
     this.questions = 0;
     this.names = new Set();
   }
-  async open() {
-    this.socket = dgram.createSocket('udp4');
-    await new Promise((resolve) => this.socket.bind(0, '127.0.0.1', resolve));
+  async open(kind) {
+    this.line = await lines.open[kind]();
     const input = new Readable({read() {}});
     createMavLinkStream(input, {magicNumbers: this.dialect.magicNumbers})
         .on('data', (packet) => this.take(packet));
-    this.socket.on('message', (bytes, from) => {
+    this.line.onBytes((bytes) => {
       this.arrived_ns = autopilot_ns();
-      this.from = from;
       input.push(bytes);
     });
   }
   send(message) {
-    const bytes = this.protocol.serialize(message, this.sequence++ & 0xff);
-    this.socket.send(bytes, this.from.port, this.from.address);
+    this.line.write(this.protocol.serialize(message, this.sequence++ & 0xff));
   }
   ask() {
-    if (!this.from) return;
+    if (!this.arrived_ns) return;  // nobody is there yet
     const question = new common.TimeSync();
     question.tc1 = 0n;
     question.ts1 = autopilot_ns();
@@ -96,7 +93,7 @@ class Autopilot {
     return {offsetMs: Number(best.offset_ns) / 1e6, boundMs: Number(best.rtt_ns) / 2e6};
   }
   close() {
-    this.socket.close();
+    this.line.close();
   }
 }
 
@@ -146,16 +143,15 @@ function checkClocks(links) {
 }
 
 async function main() {
-  const [xmlPath, ...track] = process.argv.slice(2);
+  const [kind, xmlPath, ...track] = process.argv.slice(2);
   const dialect = await loadDialect(xmlPath);
   const links = {};
-  const options = {capture: '', monotonic: '?stamps=monotonic', epoch: '?stamps=epoch', autopilot: '?stamps=autopilot'};
+  const options = {capture: '', monotonic: '&stamps=monotonic', epoch: '&stamps=epoch', autopilot: '&stamps=autopilot'};
   for (const name of Object.keys(options)) {
     links[name] = new Autopilot(dialect);
-    await links[name].open();
+    await links[name].open(kind);
   }
-  const uris = Object.entries(links).flatMap(
-      ([name, link]) => ['--link', `udp://127.0.0.1:${link.socket.address().port}${options[name]}`]);
+  const uris = Object.entries(links).flatMap(([name, {line}]) => ['--link', line.uri + options[name]]);
   const child = spawn(track[0], [...track.slice(1), '--sensor', 'sim:box?noise=clean&frames=100000', '--rate', 'live',
                                  '--headless', ...uris],
                       {stdio: ['ignore', 'inherit', 'inherit']});
@@ -180,7 +176,7 @@ async function main() {
   Object.values(links).forEach((link) => link.close());
   if (missing) throw missing;
   assert.strictEqual(status, 0);
-  console.log(`stamps of ${kFrames} frames agree on four clocks`);
+  console.log(`${kind}: stamps of ${kFrames} frames agree on four clocks`);
 }
 
 main().then(() => process.exit(0), (error) => {

@@ -55,13 +55,13 @@ class LaunchFile(unittest.TestCase):
     def test_every_argument_reaches_the_program(self):
         command = self.command(
             depth="/a/image/compressedDepth", info="/a/info", rectified="yes", mask="/m", world="map", camera="eye",
-            reset="yes", choose="yes", parameters="yes", lifecycle="yes", name="arm", domain="7", wait="5",
+            reset="yes", choose="yes", parameters="yes", lifecycle="yes", name="arm", namespace="/r1", domain="7", wait="5",
             extra="--object 'name=box,seed=3:4' --profile micro",
         )
         self.assert_taken(command)
-        sensor = "dds:domain=7&name=arm&depth=/a/image/compressedDepth&info=/a/info&rectified=yes&wait=5"
+        sensor = "dds:domain=7&name=arm&namespace=/r1&depth=/a/image/compressedDepth&info=/a/info&rectified=yes&wait=5"
         self.assertIn(sensor, command)
-        self.assertIn("dds:domain=7&name=arm&camera=eye&mask=/m&world=map&reset=yes&choose=yes&parameters=yes&lifecycle=yes", command)
+        self.assertIn("dds:domain=7&name=arm&namespace=/r1&camera=eye&mask=/m&world=map&reset=yes&choose=yes&parameters=yes&lifecycle=yes", command)
         self.assertEqual(command[-3:], ["name=box,seed=3:4", "--profile", "micro"])
 
     def test_humble_is_told(self):

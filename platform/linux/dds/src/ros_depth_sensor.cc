@@ -46,8 +46,11 @@ RosDepthSensor::RosDepthSensor(std::shared_ptr<RosNode> node, const Options& opt
 Fault RosDepthSensor::Subscribe() {
   if (subscribed_) return {};
   Fault fault = images_.Subscribe(*node_, options_.depth_topic);
-  if (fault.ok()) fault = node_->Subscribe(options_.info_topic, RosQos::kSensorData, infos_);
-  if (fault.ok()) fault = wait_.Open(node_->participant(), {images_.reader(), infos_.reader()});
+  if (fault.ok()) fault = infos_.Subscribe(*node_, options_.info_topic, RosQos::kLatched);
+  if (fault.ok()) {
+    fault = wait_.Open(node_->participant(),
+                       {images_.reader(), infos_.wanted_reader(), infos_.all_reader()});
+  }
   if (fault.ok()) fault = node_->Announce();
   intrinsics_fault_ = MakeFault(Status::kNotFound, "has not come");
   subscribed_ = fault.ok();
@@ -76,14 +79,22 @@ Fault RosDepthSensor::DoOpen() noexcept {
   }
 }
 
-/// The publisher was gone, and may be back as another one with other intrinsics.
+/// The publisher was gone, and may be back as another one.
 Fault RosDepthSensor::Reopen() {
   if (images_.writers() == 0) return Missing();
+  ForgetIntrinsics();
   AddSaturating(counters_.reconnects);
   lost_ = false;
   open_ = true;
   alive_ns_ = clock_.NowNs();
   return {};
+}
+
+/// Who publishes images now may have other intrinsics; but whoever published them once and has been
+/// there all the time does not say them again.
+void RosDepthSensor::ForgetIntrinsics() {
+  if (!lost_infos_.empty() && infos_.WantedWriters() == lost_infos_) return;
+  intrinsics_fault_ = MakeFault(Status::kNotFound, "has not come");
 }
 
 void RosDepthSensor::TakeInfos() {
@@ -197,7 +208,7 @@ Fault RosDepthSensor::Silence(std::int64_t now_ns, std::int64_t deadline_ns) {
     open_ = false;
     lost_ = true;
     pending_ = false;
-    intrinsics_fault_ = MakeFault(Status::kNotFound, "has not come");
+    lost_infos_ = infos_.WantedWriters();
     return MakeFault(Status::kDeviceLost, "%s: its publisher is gone", name_.c_str());
   }
   if (now_ns < deadline_ns) return {};
@@ -220,6 +231,7 @@ void RosDepthSensor::Lend(DepthFrame& frame) {
 }
 
 void RosDepthSensor::DoClose() noexcept {
+  if (lost_) ForgetIntrinsics();
   open_ = false;
   lost_ = false;
   pending_ = false;

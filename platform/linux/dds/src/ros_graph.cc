@@ -65,7 +65,7 @@ dds_return_t Write(dds_entity_t participant, const GraphEntry& entry, dds_entity
   if (writer < 0) return writer;
   auto readers = GidsOf<typename Messages::Gid>(entry.readers);
   auto writers = GidsOf<typename Messages::Gid>(entry.writers);
-  const std::string node_namespace = "/";
+  const std::string node_namespace = entry.node_namespace.empty() ? "/" : entry.node_namespace;
   std::vector<typename Messages::Node> nodes(1);
   std::strncpy(nodes[0].node_namespace, node_namespace.c_str(),
                sizeof(nodes[0].node_namespace) - 1);

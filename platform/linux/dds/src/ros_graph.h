@@ -13,6 +13,7 @@ namespace disflow::posix {
 /// What ROS 2 has to be told of a participant, since DDS knows no nodes.
 struct GraphEntry {
   std::string node_name;
+  std::string node_namespace;  ///< Empty: none.
   std::span<const dds_entity_t> readers;
   std::span<const dds_entity_t> writers;
 };

@@ -89,8 +89,8 @@ std::string RosNode::ParticipantId() const {
 }
 
 hal::Fault RosNode::Announce() {
-  return AnnounceInGraph(participant_, {options_.name, readers_, writers_}, options_.before_iron,
-                         graph_writer_);
+  return AnnounceInGraph(participant_, {options_.name, options_.node_namespace, readers_, writers_},
+                         options_.before_iron, graph_writer_);
 }
 
 bool RosNode::HasListeners() const noexcept {

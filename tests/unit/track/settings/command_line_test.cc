@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include "parsed.h"
 #include "program/exit_status.h"
 #include "refusal.h"
 #include "scratch_folder.h"
@@ -12,28 +13,17 @@ namespace {
 class CommandLineTest : public test::ScratchFolderTest {
  protected:
   static Options Parse(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), {"disflow_track", "--sensor", "sim:box"});
-    return ParseAll(std::move(arguments));
+    arguments.insert(arguments.begin(), {"--sensor", "sim:box"});
+    return Parsed(std::move(arguments));
   }
   /// With the settings file.
   Options ParseWith(const std::string& file, std::vector<std::string> arguments) {
     test::WriteFile(Path("run.toml"), file);
-    arguments.insert(arguments.begin(), {"disflow_track", "--config", Path("run.toml")});
-    return ParseAll(std::move(arguments));
+    arguments.insert(arguments.begin(), {"--config", Path("run.toml")});
+    return Parsed(std::move(arguments));
   }
   static std::string Refusal(const std::vector<std::string>& arguments) {
     return RefusalOf([&] { (void)Parse(arguments); });
-  }
-
- private:
-  static Options ParseAll(std::vector<std::string> arguments) {
-    std::vector<char*> pointers;
-    for (std::string& argument : arguments) pointers.push_back(argument.data());
-    bool exit_now = false;
-    Options options =
-        ParseCommandLine(static_cast<int>(pointers.size()), pointers.data(), exit_now);
-    EXPECT_FALSE(exit_now);
-    return options;
   }
 };
 

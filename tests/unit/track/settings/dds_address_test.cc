@@ -18,11 +18,13 @@ std::string Refusal(const std::string& uri) {
 
 TEST(DdsAddress, EveryOption_IsTaken) {
   const DdsAddress address = ParseDdsAddress(
-      "dds:domain=232&name=left_arm&interface=eth0&peer=10.0.0.2,robot.local,[fe80::1]&"
+      "dds:domain=232&name=left_arm&namespace=/robot1/"
+      "body&interface=eth0&peer=10.0.0.2,robot.local,[fe80::1]&"
       "camera=cam/depth&world=map&mask=/seg/mask&reset=yes&choose=yes&parameters=yes&"
       "lifecycle=yes&ros=humble");
   EXPECT_EQ(address.domain, 232U);
   EXPECT_EQ(address.name, "left_arm");
+  EXPECT_EQ(address.FullName(), "/robot1/body/left_arm");
   EXPECT_EQ(address.interface, "eth0");
   EXPECT_EQ(address.peers, (std::vector<std::string>{"10.0.0.2", "robot.local", "[fe80::1]"}));
   EXPECT_EQ(address.camera_frame, "cam/depth");

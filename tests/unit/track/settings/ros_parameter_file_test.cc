@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "parsed.h"
 #include "refusal.h"
 #include "scratch_folder.h"
 #include "settings/options.h"
@@ -22,18 +23,16 @@ class RosParameterFileTest : public test::ScratchFolderTest {
   /// What the program makes of the file.
   Options Parse(const std::string& file, std::vector<std::string> arguments = {}) {
     test::WriteFile(Path("params.yaml"), file);
-    arguments.insert(arguments.begin(), {"disflow_track", "--sensor", "sim:box", "--ros-args",
-                                         "--params-file", Path("params.yaml")});
-    std::vector<char*> pointers;
-    for (std::string& argument : arguments) pointers.push_back(argument.data());
-    bool exit_now = false;
-    return ParseCommandLine(static_cast<int>(pointers.size()), pointers.data(), exit_now);
+    arguments.insert(arguments.begin(),
+                     {"--sensor", "sim:box", "--ros-args", "--params-file", Path("params.yaml")});
+    return Parsed(std::move(arguments));
   }
 };
 
 TEST_F(RosParameterFileTest, NestedAndDottedNames_SayTheSame) {
   for (const char* const text :
        {"/**:\n  ros__parameters:\n    registration:\n      iterations: 12\n",
+        "/**/disflow:\n  ros__parameters:\n    registration.iterations: 12\n",
         "disflow:\n  ros__parameters:\n    registration.iterations: 12\n",
         "/disflow:\n  ros__parameters: {object: {registration.iterations: 12}}\n",
         "/disflow:\n  ros__parameters:\n    object.registration.iterations: 12\n"}) {
@@ -127,7 +126,7 @@ TEST_F(RosParameterFileTest, AliasesThatMultiply_EndAtOnce) {
   test::WriteFile(Path("bomb.yaml"),
                   text + "/**:\n  ros__parameters: {use_sim_time: 0, run: *a5}\n");
   EXPECT_FALSE(
-      RefusalOf([&] { (void)LoadRosParameters(Path("bomb.yaml"), "disflow", config); }).empty());
+      RefusalOf([&] { (void)LoadRosParameters(Path("bomb.yaml"), "/disflow", config); }).empty());
 }
 
 }  // namespace

@@ -4,8 +4,10 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "disflow/hal/depth_sensor.h"
+#include "disflow/posix/dds/ros_any_subscription.h"
 #include "disflow/posix/dds/ros_depth_topic.h"
 #include "disflow/posix/dds/ros_node.h"
 #include "disflow/posix/monotonic_clock.h"
@@ -40,6 +42,7 @@ class RosDepthSensor final : public hal::DepthSensor {
 
   [[nodiscard]] hal::Fault Subscribe();
   [[nodiscard]] hal::Fault Reopen();
+  void ForgetIntrinsics();
   void TakeInfos();
   [[nodiscard]] hal::Fault TakeImages();
   void FixSize(const DepthView& depth);
@@ -54,7 +57,9 @@ class RosDepthSensor final : public hal::DepthSensor {
   std::string name_;  ///< For people.
   MonotonicClock clock_;
   RosDepthTopic images_;
-  RosSubscription<ros::CameraInfo> infos_;
+  /// Drivers that publish them once keep them for those who come later.
+  RosAnySubscription<ros::CameraInfo> infos_;
+  std::vector<dds_instance_handle_t> lost_infos_;  ///< Who kept some when the images went.
   RosWait wait_;
   hal::SensorCounters counters_;
   RosIntrinsics intrinsics_;

@@ -70,12 +70,19 @@ class RosSubscription {
   /// Calls `take(message)` for what has come in, at most kBatch messages; never waits.
   template <class Take>
   void TakeAll(Take&& take) {
+    TakeAllOf([](dds_instance_handle_t) { return true; }, take);
+  }
+
+  /// As TakeAll(), of those writers for which `accept(writer)` is true; of others it is lost.
+  template <class Accept, class Take>
+  void TakeAllOf(Accept&& accept, Take&& take) {
     constexpr std::size_t kBatch = 32;
     std::array<void*, kBatch> messages{};
     std::array<dds_sample_info_t, kBatch> infos;
     const int count = dds_take(reader_, messages.data(), infos.data(), kBatch, kBatch);
     for (std::size_t i = 0; i < static_cast<std::size_t>(std::max(count, 0)); ++i) {
-      if (infos[i].valid_data) take(*static_cast<const Message*>(messages[i]));
+      if (!infos[i].valid_data || !accept(infos[i].publication_handle)) continue;
+      take(*static_cast<const Message*>(messages[i]));
     }
     if (count > 0) (void)dds_return_loan(reader_, messages.data(), count);
   }
@@ -147,7 +154,8 @@ class RosNode {
   struct Options {
     DdsNetwork network;
     std::string name = "disflow";
-    bool before_iron = false;  ///< Announce the node as ROS 2 Humble and older understand it.
+    std::string node_namespace{};  ///< "/robot1"; empty: none.
+    bool before_iron = false;      ///< Announce the node as ROS 2 Humble and older understand it.
   };
 
   RosNode() = default;
@@ -192,6 +200,10 @@ class RosNode {
   [[nodiscard]] hal::Fault Announce();
 
   [[nodiscard]] const Options& options() const noexcept { return options_; }
+  /// With its namespace: "/robot1/disflow".
+  [[nodiscard]] std::string full_name() const {
+    return options_.node_namespace + "/" + options_.name;
+  }
   [[nodiscard]] dds_entity_t participant() const noexcept { return participant_; }
 
   /// @return true if anything of this node is listened to.
