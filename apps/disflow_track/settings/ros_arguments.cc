@@ -30,9 +30,9 @@ bool IsForeign(std::string_view word) {
   return Holds(kWords, word) || is_switch;
 }
 
-class Reader {
+class RosArgumentReader {
  public:
-  explicit Reader(std::vector<std::string>& arguments) : arguments_(arguments) {}
+  explicit RosArgumentReader(std::vector<std::string>& arguments) : arguments_(arguments) {}
 
   [[nodiscard]] RosArguments Read() {
     std::vector<std::string> rest;
@@ -156,7 +156,7 @@ void PutTopics(const RosArguments& ros, const Keys& keys, const DdsNodeAddress& 
 }  // namespace
 
 RosArguments TakeRosArguments(std::vector<std::string>& arguments) {
-  return Reader(arguments).Read();
+  return RosArgumentReader(arguments).Read();
 }
 
 DdsNodeAddress NodeOf(const RosArguments& ros, const Options& options) {
