@@ -3,7 +3,6 @@
 
 #include <cstring>
 #include <deque>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -101,17 +100,16 @@ struct BagRecording::State {
   void PutInfo(const DepthFrame& frame);
   void PutTransform(const ros::TransformStamped& transform);
   void PutResult(std::size_t number, const FrameResult& result);
-  void PutClouds(const TrackedObjects& tracked);
+  void PutClouds(std::span<const SampleList> models);
 
   DdsAddress address;
   DdsClock clock;
   posix::McapWriter writer;
   DdsFrames frames;  ///< Of the camera alone.
   std::deque<RecordedObject> objects;
-  std::int64_t ros_ns = 0;                ///< Of the frame that is being added.
-  std::optional<std::int64_t> clouds_ns;  ///< Of the frame whose clouds were added last.
-  std::vector<std::uint8_t> data;         ///< Of an image.
-  std::vector<std::uint8_t> bytes;        ///< Of a message.
+  std::int64_t ros_ns = 0;          ///< Of the frame that is being added.
+  std::vector<std::uint8_t> data;   ///< Of an image.
+  std::vector<std::uint8_t> bytes;  ///< Of a message.
   int count = 0;
 };
 
@@ -185,15 +183,12 @@ void BagRecording::State::PutTransform(const ros::TransformStamped& transform) {
   Put(kTransforms, message);
 }
 
-/// As often as over DDS, but by the time of the frames, so that the same run is the same recording.
-void BagRecording::State::PutClouds(const TrackedObjects& tracked) {
-  // Stamps that run backwards belong to what is played again.
-  if (clouds_ns && ros_ns >= *clouds_ns && ros_ns - *clouds_ns < DdsModelCloud::kPeriod_ns) return;
-  clouds_ns = ros_ns;
-  for (std::size_t i = 0; i < objects.size(); ++i) {
+void BagRecording::State::PutClouds(std::span<const SampleList> models) {
+  static_assert(kModelPeriod_ns == DdsModelCloud::kPeriod_ns);
+  for (std::size_t i = 0; i < models.size(); ++i) {
     RecordedObject& object = objects[i];
     Put(kFirstObject + i * kPerObject + kCloud,
-        object.cloud.Message(*tracked[i], ros_ns, object.frames));
+        object.cloud.Message(models[i], ros_ns, object.frames));
   }
 }
 
@@ -203,14 +198,14 @@ BagRecording::BagRecording(const Options& options, const hal::SensorInfo& sensor
 BagRecording::~BagRecording() = default;
 
 hal::Fault BagRecording::Add(const DepthFrame* frame, std::span<const FrameResult> results,
-                             const TrackedObjects& objects) {
+                             std::span<const SampleList> models) {
   State& state = *state_;
   if (frame != nullptr) {
     state.ros_ns = state.clock.ToRos(frame->stamp_ns);
     state.PutFrame(*frame);
   }
   for (std::size_t i = 0; i < results.size(); ++i) state.PutResult(i, results[i]);
-  if (frame != nullptr) state.PutClouds(objects);
+  if (frame != nullptr) state.PutClouds(models);
   const hal::Fault fault = state.writer.WriteChunk();
   if (fault.ok() && frame != nullptr) ++state.count;
   return fault;

@@ -7,7 +7,7 @@
 
 #include "disflow/depth/depth_frame.h"
 #include "disflow/hal/depth_sensor.h"
-#include "objects/tracked_object.h"
+#include "objects/sample_list.h"
 #include "program/frame_result.h"
 #include "settings/options.h"
 
@@ -17,6 +17,9 @@ namespace disflow::apps {
 /// that `--link dds:` sends.
 class BagRecording {
  public:
+  /// Between two frames whose models are recorded: as often as over DDS.
+  static constexpr std::int64_t kModelPeriod_ns = 500'000'000;
+
   /// @return Whether a path of --record is meant for this.
   [[nodiscard]] static bool IsMeant(const std::string& path) { return path.ends_with(".mcap"); }
 
@@ -30,9 +33,9 @@ class BagRecording {
 
   /// Hands a frame and its results to the kernel, all or nothing.
   /// @param frame Null if it could not be read.
-  /// @param results,objects In the order of Options::objects.
+  /// @param results,models In the order of Options::objects; no models: they are not due.
   [[nodiscard]] hal::Fault Add(const DepthFrame* frame, std::span<const FrameResult> results,
-                               const TrackedObjects& objects);
+                               std::span<const SampleList> models);
   /// Writes the index. No more can be added then.
   [[nodiscard]] hal::Fault Finish();
   [[nodiscard]] int frame_count() const noexcept;

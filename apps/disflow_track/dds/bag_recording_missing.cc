@@ -18,7 +18,7 @@ BagRecording::BagRecording(const Options& options, const hal::SensorInfo&) {
 BagRecording::~BagRecording() = default;
 
 hal::Fault BagRecording::Add(const DepthFrame*, std::span<const FrameResult>,
-                             const TrackedObjects&) {
+                             std::span<const SampleList>) {
   return {};
 }
 

@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <utility>
 
 #include "program/exit_status.h"
 #include "program/stop_signal.h"
@@ -81,6 +82,12 @@ int WriteAll(int fd, std::string_view bytes) noexcept {
   return 0;
 }
 
+/// @return As WriteAll(); also what some file systems say no sooner than when a file is closed.
+int WriteAndClose(posix::FileDescriptor file, std::string_view bytes) noexcept {
+  const int error = WriteAll(file.get(), bytes);
+  return error == 0 && !file.Close() ? errno : error;
+}
+
 }  // namespace
 
 RecordFile::RecordFile(const std::string& path) : path_(path), file_(Create(path, path)) {}
@@ -99,8 +106,7 @@ bool RecordFile::Append(std::string_view record) noexcept {
 
 void ReplaceFile(const std::string& path, std::string_view contents) {
   const std::string part = PartPath(path);
-  const posix::FileDescriptor file = Create(part, path);
-  int error = WriteAll(file.get(), contents);
+  int error = WriteAndClose(Create(part, path), contents);
   if (error == 0 && std::rename(part.c_str(), path.c_str()) != 0) error = errno;
   if (error == 0) return;
   (void)::unlink(part.c_str());
@@ -120,9 +126,8 @@ AtomicFile::AtomicFile(const std::string& path) : path_(path) {
 
 void AtomicFile::Commit(std::string_view contents) {
   if (!stream_.is_open()) return ReplaceFile(path_, contents);
-  const int error = WriteAll(stream_.get(), contents);
+  const int error = WriteAndClose(std::move(stream_), contents);
   if (error != 0) Fail(path_, error);
-  stream_.Reset();
 }
 
 }  // namespace disflow::apps

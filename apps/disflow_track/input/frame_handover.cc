@@ -8,7 +8,6 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
-#include <cstring>
 #include <system_error>
 #include <utility>
 
@@ -16,52 +15,15 @@
 #include "disflow/saturating.h"
 
 namespace disflow::apps {
-namespace {
-
-constexpr std::size_t kLargestPixel_bytes = 4;
-
-void CopyRows(const std::byte* source, std::ptrdiff_t stride_bytes, std::size_t row_bytes, int rows,
-              std::byte* target) noexcept {
-  for (int v = 0; v < rows; ++v) {
-    std::memcpy(target + static_cast<std::size_t>(v) * row_bytes, source + v * stride_bytes,
-                row_bytes);
-  }
-}
-
-}  // namespace
 
 FrameHandover::FrameHandover(int width_px, int height_px, bool with_mask)
     : changed_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
   if (!changed_.is_open()) throw std::system_error(errno, std::generic_category(), "eventfd");
-  const std::size_t pixels =
-      static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px);
-  slots_.ForEach([pixels, with_mask](Slot& slot) {
-    slot.depth.resize(pixels * kLargestPixel_bytes);
-    if (with_mask) slot.mask.resize(pixels);
-  });
-}
-
-void FrameHandover::Slot::Copy(const DepthFrame& source) {
-  frame = source;
-  const DepthView& from = source.depth;
-  const auto row_bytes = static_cast<std::size_t>(from.width_px * from.bytes_per_pixel());
-  const auto rows = static_cast<std::size_t>(from.height_px);
-  if (depth.size() < rows * row_bytes) depth.resize(rows * row_bytes);
-  CopyRows(from.row(0), from.stride_bytes, row_bytes, from.height_px, depth.data());
-  frame.depth.data = depth.data();
-  frame.depth.stride_bytes = static_cast<std::ptrdiff_t>(row_bytes);
-  if (!source.mask.given()) return;
-  const auto mask_row = static_cast<std::size_t>(source.mask.width_px);
-  const std::size_t mask_bytes = mask_row * static_cast<std::size_t>(source.mask.height_px);
-  if (mask.size() < mask_bytes) mask.resize(mask_bytes);
-  CopyRows(reinterpret_cast<const std::byte*>(source.mask.data), source.mask.stride_bytes, mask_row,
-           source.mask.height_px, reinterpret_cast<std::byte*>(mask.data()));
-  frame.mask.data = mask.data();
-  frame.mask.stride_bytes = static_cast<std::ptrdiff_t>(mask_row);
+  slots_.ForEach([=](Slot& slot) { slot.image.Reserve(width_px, height_px, with_mask); });
 }
 
 void FrameHandover::Put(const DepthFrame& frame) {
-  slots_.back().Copy(frame);
+  slots_.back().image.Take(frame);
   slots_.back().fault = Status::kOk;
   const bool replaced = slots_.Publish();
   if (replaced && slots_.back().fault == Status::kOk) {
@@ -94,7 +56,7 @@ FrameHandover::Taken FrameHandover::Take(std::int64_t timeout_ns, DepthFrame& fr
   if (slots_.Take()) {
     fault = slots_.front().fault;
     if (fault != Status::kOk) return Taken::kFault;
-    frame = slots_.front().frame;
+    frame = slots_.front().image.frame();
     return Taken::kFrame;
   }
   if (!ended) return Taken::kNothing;

@@ -5,17 +5,16 @@
 #include <cstdint>
 #include <exception>
 #include <span>
-#include <vector>
 
 #include "disflow/depth/depth_frame.h"
 #include "disflow/posix/file_descriptor.h"
 #include "disflow/posix/triple_buffer.h"
+#include "input/frame_copy.h"
 
 namespace disflow::apps {
 
 /// Hands frames from the capture thread to the tracking thread: room for one, and the newest wins.
-/// Frames are copied, because a driver's buffers are few and their owner reuses them; neither side
-/// waits for the other's copying.
+/// Frames are copied; neither side waits for the other's copying.
 class FrameHandover {
  public:
   /// kInput: no frame yet, but one of the inputs that the caller also waits for.
@@ -51,11 +50,7 @@ class FrameHandover {
  private:
   struct Slot {
     Status fault = Status::kOk;
-    DepthFrame frame;
-    std::vector<std::byte> depth;
-    std::vector<std::uint8_t> mask;
-
-    void Copy(const DepthFrame& source);
+    FrameCopy image;
   };
 
   /// @return true if it was one of the inputs that ended the wait.

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "input/sensor_choice.h"
 
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <system_error>
+
 #include "disflow/posix/camera/camera_address.h"
 #include "disflow/posix/camera/camera_list.h"
 #include "disflow/posix/camera/v4l2_sensor.h"
@@ -62,10 +67,21 @@ Fault OpenRecording(const std::string& address, host::Sensor& sensor) {
 #endif
 }
 
+/// A file that ROS recorded, by its name alone. A colon may be in it if it is there.
+bool IsRecordingFile(const std::string& uri) {
+  const std::string path = uri.substr(0, uri.find('?'));
+  constexpr std::array kExtensions = {".mcap", ".db3", ".bag", ".bag.active"};
+  const bool is_meant = std::any_of(kExtensions.begin(), kExtensions.end(),
+                                    [&path](const char* end) { return path.ends_with(end); });
+  std::error_code error;
+  return is_meant && (path.find(':') == std::string::npos || std::filesystem::exists(path, error));
+}
+
 /// Of any kind that is no ROS 2 topic.
 Fault OpenByScheme(const std::string& uri, host::Sensor& sensor) {
   if (posix::IsCameraAddress(uri)) return OpenCamera(uri, sensor);
   if (uri.starts_with("rosbag:")) return OpenRecording(uri, sensor);
+  if (IsRecordingFile(uri)) return OpenRecording("rosbag:" + uri, sensor);
   return host::OpenSensor(uri, sensor);
 }
 

@@ -51,6 +51,20 @@ class TrackedObjectOf final : public TrackedObject {
   ModelReader<Limits> reader_;
 };
 
+/// What make() returns for the capacities of a profile.
+template <class Made, class Make>
+Made WithLimits(ProfileName profile, Make&& make) {
+  switch (profile) {
+    case ProfileName::kMicro:
+      return make(profiles::Micro{});
+    case ProfileName::kEdge:
+      return make(profiles::Edge{});
+    case ProfileName::kDense:
+      return make(profiles::Dense{});
+  }
+  return {};
+}
+
 }  // namespace
 
 void TrackedObject::Track(const DepthFrame& frame, StageClock clock, FrameResult& result) noexcept {
@@ -81,17 +95,19 @@ MaskView TrackedObject::MaskIn(const DepthFrame& frame) const noexcept {
   return mask;
 }
 
+std::size_t MaxModelSamples(ProfileName profile) noexcept {
+  return WithLimits<std::size_t>(profile, [](auto limits) {
+    return static_cast<std::size_t>(limits.kMaxClusters) *
+           static_cast<std::size_t>(limits.kMaxSamplesPerCluster);
+  });
+}
+
 std::unique_ptr<TrackedObject> MakeTrackedObject(ProfileName profile,
                                                  const ObjectOptions& options) {
-  switch (profile) {
-    case ProfileName::kMicro:
-      return std::make_unique<TrackedObjectOf<profiles::Micro>>(options);
-    case ProfileName::kEdge:
-      return std::make_unique<TrackedObjectOf<profiles::Edge>>(options);
-    case ProfileName::kDense:
-      return std::make_unique<TrackedObjectOf<profiles::Dense>>(options);
-  }
-  return nullptr;
+  using Made = std::unique_ptr<TrackedObject>;
+  return WithLimits<Made>(profile, [&options](auto limits) -> Made {
+    return std::make_unique<TrackedObjectOf<decltype(limits)>>(options);
+  });
 }
 
 }  // namespace disflow::apps

@@ -79,6 +79,9 @@ class TrackedObject {
 /// All objects of a run, in the order of Options::objects.
 using TrackedObjects = std::vector<std::unique_ptr<TrackedObject>>;
 
+/// As many samples as a model of this profile can have.
+[[nodiscard]] std::size_t MaxModelSamples(ProfileName profile) noexcept;
+
 /// Allocates the tracker's memory, all that it will ever use.
 /// @param options Must outlive the object.
 [[nodiscard]] std::unique_ptr<TrackedObject> MakeTrackedObject(ProfileName profile,

@@ -17,6 +17,8 @@ struct FrameResult {
   float model_coarseness = 1.0F;
   std::int64_t total_ns = 0;   ///< Whole time in the tracker, without reading the frame.
   hal::SensorCounters sensor;  ///< So far.
+  /// Frames so far that the recording lacks because the disk did not keep up.
+  std::uint32_t recording_dropped = 0;
 };
 
 }  // namespace disflow::apps

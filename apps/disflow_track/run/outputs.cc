@@ -3,9 +3,22 @@
 
 #include <utility>
 
+#include "dds/bag_recording.h"
 #include "program/exit_status.h"
 
 namespace disflow::apps {
+namespace {
+
+std::unique_ptr<RecordingQueue> MakeQueue(const Options& options, const hal::SensorInfo& sensor) {
+  RecordingQueue::Room room{.width_px = sensor.width_px, .height_px = sensor.height_px};
+  if (BagRecording::IsMeant(options.record)) {
+    room.objects = options.objects.size();
+    room.model_samples = MaxModelSamples(options.profile);
+  }
+  return std::make_unique<RecordingQueue>(room);
+}
+
+}  // namespace
 
 Outputs::Outputs(const Options& options, const Options& named, const hal::SensorInfo& sensor,
                  Console& console, hal::CameraPoseHistory* camera_poses)
@@ -15,8 +28,10 @@ Outputs::Outputs(const Options& options, const Options& named, const hal::Sensor
       waits_for_files_(!sensor.live && options.rate != Rate::kLive) {
   for (const ObjectOptions& object : options.objects) objects_.emplace_back(object.files);
   // Last, since it empties files that may exist.
-  part_ = std::make_unique<RunPart>(options, sensor);
-  if (rotation_.wanted()) maker_ = std::make_unique<PartMaker>(named, sensor, console);
+  if (!options.record.empty() && !waits_for_files_) queue_ = MakeQueue(options, sensor);
+  part_ = std::make_unique<RunPart>(options, sensor, queue_.get());
+  if (rotation_.wanted())
+    maker_ = std::make_unique<PartMaker>(named, sensor, queue_.get(), console);
 }
 
 void Outputs::Deliver(const TrackedObjects& objects, std::span<const FrameResult> results,
@@ -26,6 +41,15 @@ void Outputs::Deliver(const TrackedObjects& objects, std::span<const FrameResult
   for (std::size_t i = 0; i < objects_.size(); ++i)
     Attempt([&] { part_->WriteRow(i, results[i]); });
   Attempt([&] { part_->Record(frame, results, objects); });
+  SayIfDiskIsSlow();
+}
+
+void Outputs::SayIfDiskIsSlow() {
+  if (disk_is_slow_ || recording_dropped() == 0) return;
+  disk_is_slow_ = true;
+  Fail(
+      "recording: the disk does not keep up; frames are left out of the recording until it does, "
+      "tracking goes on; see docs/sequences.md");
 }
 
 void Outputs::RotateIfFull(StampNs stamp_ns) {
@@ -58,14 +82,18 @@ void Outputs::WriteMeshes(const TrackedObjects& objects, double resolution_m) {
 
 bool Outputs::Finish() {
   for (ObjectOutputs& object : objects_) object.Finish(written_);
-  const hal::Fault fault = part_->Finish(written_);
-  if (!fault.ok()) Fail(fault.message);
+  const std::string failure = part_->Finish(written_);
+  if (!failure.empty()) Fail(failure);
   if (maker_) {
     complete_ = maker_->Finish() && complete_;
     if (maker_->retired() > 0) {
       written_.push_back("and " + std::to_string(maker_->retired()) +
                          " times before, under lower numbers");
     }
+  }
+  if (recording_dropped() > 0) {
+    written_.push_back("recording: " + std::to_string(recording_dropped()) +
+                       " frames left out because the disk did not keep up");
   }
   for (std::string& line : telemetry_.Summary()) written_.push_back(std::move(line));
   return complete_ && !telemetry_.AnyLost();

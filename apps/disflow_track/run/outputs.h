@@ -46,6 +46,10 @@ class Outputs {
   /// What shows input when something has come in on the links.
   [[nodiscard]] std::span<const int> fds() noexcept { return telemetry_.fds(); }
   void KeepAlive(std::int64_t now_ns) noexcept { telemetry_.KeepAlive(now_ns); }
+  /// Frames that the recordings lack because the disk did not keep up.
+  [[nodiscard]] std::uint32_t recording_dropped() const noexcept {
+    return queue_ ? queue_->dropped() : 0;
+  }
 
   /// Closes all. @return false if something that was asked for is not complete.
   [[nodiscard]] bool Finish();
@@ -54,6 +58,7 @@ class Outputs {
 
  private:
   void RotateIfFull(StampNs stamp_ns);
+  void SayIfDiskIsSlow();
   [[nodiscard]] bool IsFull(StampNs stamp_ns) noexcept;
   template <class Write>
   void Attempt(Write&& write);
@@ -63,7 +68,9 @@ class Outputs {
   TelemetryOutput telemetry_;
   std::deque<ObjectOutputs> objects_;
   RotationOptions rotation_;
-  bool waits_for_files_;  ///< Nothing is lost meanwhile.
+  bool waits_for_files_;                   ///< Nothing is lost meanwhile.
+  std::unique_ptr<RecordingQueue> queue_;  ///< Null: nothing is recorded, or files are waited for.
+  bool disk_is_slow_ = false;              ///< It has been said.
   std::unique_ptr<RunPart> part_;
   std::unique_ptr<PartMaker> maker_;  ///< Null: nothing is rotated.
   std::vector<std::string> written_;

@@ -18,9 +18,11 @@ std::int64_t NowNs() { return posix::MonotonicClock().NowNs(); }
 
 }  // namespace
 
-PartMaker::PartMaker(const Options& named, const hal::SensorInfo& sensor, Console& console)
+PartMaker::PartMaker(const Options& named, const hal::SensorInfo& sensor, RecordingQueue* queue,
+                     Console& console)
     : named_(named),
       sensor_(sensor),
+      queue_(queue),
       console_(console),
       thread_(posix::StartQuietThread([this] { Work(); })) {}
 
@@ -79,7 +81,7 @@ void PartMaker::Work() {
 void PartMaker::Open() {
   std::unique_ptr<RunPart> part;
   try {
-    part = std::make_unique<RunPart>(NumberOutputs(named_), sensor_);
+    part = std::make_unique<RunPart>(NumberOutputs(named_), sensor_, queue_);
     failing_ = false;
   } catch (const Failure& failure) {
     Fail(std::string(failure.what()) + "; the files are not rotated, it is tried again");
@@ -93,8 +95,8 @@ void PartMaker::Open() {
 
 void PartMaker::Close(std::unique_ptr<RunPart> part) {
   std::vector<std::string> written;
-  const hal::Fault fault = part->Finish(written);
-  if (!fault.ok()) Fail(fault.message);
+  const std::string incomplete = part->Finish(written);
+  if (!incomplete.empty()) Fail(incomplete);
   part.reset();
   if (named_.rotation.keep == 0) return;
   try {

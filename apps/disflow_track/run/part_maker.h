@@ -17,7 +17,9 @@ namespace disflow::apps {
 class PartMaker {
  public:
   /// @param named The options before NumberOutputs(). All outlive this object.
-  PartMaker(const Options& named, const hal::SensorInfo& sensor, Console& console);
+  /// @param queue Of all parts, see RunPart.
+  PartMaker(const Options& named, const hal::SensorInfo& sensor, RecordingQueue* queue,
+            Console& console);
   PartMaker(const PartMaker&) = delete;
   PartMaker& operator=(const PartMaker&) = delete;
   /// Closes what was retired.
@@ -42,6 +44,7 @@ class PartMaker {
 
   const Options& named_;
   const hal::SensorInfo& sensor_;
+  RecordingQueue* queue_;
   Console& console_;
   int retired_count_ = 0;
 

@@ -173,7 +173,10 @@ class TrackingRun {
 
   void Take(const FrameFeed::Turn& turn, WorkerPool& pool) {
     const bool readable = turn.event == FrameSource::Event::kFrame;
-    for (FrameResult& result : results_) result.sensor = turn.counters;
+    for (FrameResult& result : results_) {
+      result.sensor = turn.counters;
+      result.recording_dropped = outputs_.recording_dropped();
+    }
     if (readable) {
       TrackFrame(turn.counters, pool);
     } else {

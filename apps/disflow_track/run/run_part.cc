@@ -3,14 +3,13 @@
 
 #include <cstring>
 
-#include "files/numbered_names.h"
 #include "program/exit_status.h"
 
 namespace disflow::apps {
 
-RunPart::RunPart(const Options& options, const hal::SensorInfo& sensor)
-    : record_path_(options.record) {
-  if (!options.record.empty()) StartRecording(options, sensor);
+RunPart::RunPart(const Options& options, const hal::SensorInfo& sensor, RecordingQueue* queue)
+    : queue_(queue), models_(options.objects.size()), record_path_(options.record) {
+  if (!options.record.empty()) recording_.emplace(OpenRecording(options, sensor));
   // Last, since it empties files that may exist.
   for (const ObjectOptions& object : options.objects) {
     std::optional<TrajectoryCsv>& csv = trajectories_.emplace_back();
@@ -18,20 +17,8 @@ RunPart::RunPart(const Options& options, const hal::SensorInfo& sensor)
   }
 }
 
-void RunPart::StartRecording(const Options& options, const hal::SensorInfo& sensor) {
-  constexpr const char* kObject = "object";
-  if (BagRecording::IsMeant(options.record)) {
-    bag_.emplace(options, sensor);
-    return;
-  }
-  recording_.emplace();
-  const hal::Fault fault = recording_->Open(options.record, kObject, /*overwrite=*/false);
-  if (fault.status == Status::kBusy) {
-    throw Failure(
-        kOutputFailed,
-        options.record + ": is not empty, and a recording is never overwritten; " + kOtherFolder);
-  }
-  Require(fault);
+RunPart::~RunPart() {
+  if (recording_ && queue_ != nullptr) queue_->AwaitWritten();
 }
 
 void RunPart::WriteRow(std::size_t object, const FrameResult& result) {
@@ -45,34 +32,41 @@ void RunPart::WriteRow(std::size_t object, const FrameResult& result) {
 
 void RunPart::Record(const DepthFrame* frame, std::span<const FrameResult> results,
                      const TrackedObjects& objects) {
-  if (!recording_ && !bag_) return;
-  const hal::Fault fault = bag_ ? bag_->Add(frame, results, objects) : AddToSequence(frame);
-  if (fault.ok()) return;
+  if (!recording_ || recording_ended_) return;
+  if (!recording_->has_failed()) {
+    Hand(frame, results, objects);
+    // What the queue makes of it is asked with the next frame.
+    if (queue_ != nullptr || !recording_->has_failed()) return;
+  }
   failed_ = true;
-  const std::string end = std::string(fault.message) + "; nothing more is recorded after " +
-                          std::to_string(recorded_frames()) + " frames";
-  recording_.reset();
-  bag_.reset();
-  throw Failure(kOutputFailed, end);
+  recording_ended_ = true;
+  throw Failure(kOutputFailed, recording_->failure());
 }
 
-hal::Fault RunPart::AddToSequence(const DepthFrame* frame) {
-  if (frame == nullptr) return {};
-  hal::Fault fault = recording_->AddFrame(*frame);
-  if (fault.ok() && frame->mask.given()) fault = recording_->AddMask("gt", frame->mask);
-  // At once: the next frame may never come.
-  return fault.ok() ? recording_->CompleteFrame() : fault;
-}
-
-int RunPart::recorded_frames() const noexcept {
-  return bag_ ? bag_->frame_count() : recording_->frame_count();
+void RunPart::Hand(const DepthFrame* frame, std::span<const FrameResult> results,
+                   const TrackedObjects& objects) {
+  if (!recording_->has_results()) {
+    if (frame == nullptr) return;
+    results = {};
+  }
+  bool with_models =
+      recording_->has_results() && frame != nullptr && model_pace_.IsDue(frame->stamp_ns);
+  if (queue_ != nullptr) {
+    const TrackedObjects* const sources = with_models ? &objects : nullptr;
+    with_models = queue_->Put(*recording_, frame, results, sources).models;
+  } else {
+    for (std::size_t i = 0; with_models && i < models_.size(); ++i) models_[i].Take(*objects[i]);
+    std::span<const SampleList> models;
+    if (with_models) models = models_;
+    recording_->Write({frame, results, models});
+  }
+  if (with_models) model_pace_.Recorded(frame->stamp_ns);
 }
 
 std::int64_t RunPart::size_bytes() const noexcept {
   std::int64_t bytes = 0;
   for (const auto& csv : trajectories_) bytes += csv ? csv->file().size_bytes() : 0;
-  if (recording_) bytes += recording_->image_bytes();
-  if (bag_) bytes += bag_->size_bytes();
+  if (recording_) bytes += recording_->size_bytes();
   return bytes;
 }
 
@@ -82,13 +76,16 @@ double RunPart::AgeAt_s(StampNs stamp_ns) noexcept {
   return static_cast<double>(stamp_ns - *first_ns_) * 1e-9;
 }
 
-hal::Fault RunPart::Finish(std::vector<std::string>& written) {
+std::string RunPart::Finish(std::vector<std::string>& written) {
   for (const auto& csv : trajectories_)
     if (csv) written.push_back(csv->file().path() + ": trajectory");
-  if (!recording_ && !bag_) return {};
-  const hal::Fault fault = bag_ ? bag_->Finish() : recording_->Finish();
-  written.push_back(record_path_ + ": " + std::to_string(recorded_frames()) + " frames");
-  return fault;
+  if (!recording_ || recording_ended_) return {};
+  if (queue_ != nullptr) queue_->AwaitWritten();
+  recording_ended_ = true;
+  if (recording_->has_failed()) return recording_->failure();
+  const hal::Fault fault = recording_->Finish();
+  written.push_back(record_path_ + ": " + std::to_string(recording_->frame_count()) + " frames");
+  return fault.ok() ? "" : fault.message;
 }
 
 }  // namespace disflow::apps

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "dds/bag_recording.h"
-#include "disflow/host/sequence_writer.h"
 #include "files/trajectory_csv.h"
 #include "program/frame_result.h"
+#include "run/recording.h"
+#include "run/recording_queue.h"
 #include "settings/options.h"
 
 namespace disflow::apps {
@@ -24,13 +24,16 @@ class RunPart {
   /// are then unchanged.
   /// @param options After NumberOutputs().
   /// @param sensor Where the frames come from.
-  RunPart(const Options& options, const hal::SensorInfo& sensor);
+  /// @param queue Writes the recording and outlives this; null: who records a frame writes it.
+  RunPart(const Options& options, const hal::SensorInfo& sensor, RecordingQueue* queue);
   RunPart(const RunPart&) = delete;
   RunPart& operator=(const RunPart&) = delete;
+  ~RunPart();
 
   /// A row of an object's trajectory. @throws Failure kOutputFailed, once.
   void WriteRow(std::size_t object, const FrameResult& result);
-  /// @param frame Null if it could not be read. @throws Failure kOutputFailed, once.
+  /// @param frame Null if it could not be read. @throws Failure kOutputFailed, once; of what the
+  /// queue could not write with one of the next frames.
   void Record(const DepthFrame* frame, std::span<const FrameResult> results,
               const TrackedObjects& objects);
 
@@ -40,18 +43,20 @@ class RunPart {
   /// Between the first frame and this one.
   [[nodiscard]] double AgeAt_s(StampNs stamp_ns) noexcept;
 
-  /// Closes all. @param written Gets a line per output.
-  [[nodiscard]] hal::Fault Finish(std::vector<std::string>& written);
+  /// Writes what waits, and closes all. @param written Gets a line per output.
+  /// @return What went wrong; empty: nothing.
+  [[nodiscard]] std::string Finish(std::vector<std::string>& written);
 
  private:
-  void StartRecording(const Options& options, const hal::SensorInfo& sensor);
-  [[nodiscard]] hal::Fault AddToSequence(const DepthFrame* frame);
-  [[nodiscard]] int recorded_frames() const noexcept;
+  void Hand(const DepthFrame* frame, std::span<const FrameResult> results,
+            const TrackedObjects& objects);
 
   std::deque<std::optional<TrajectoryCsv>> trajectories_;
-  // At most one of them; empty again after a failure.
-  std::optional<host::SequenceWriter> recording_;
-  std::optional<BagRecording> bag_;
+  RecordingQueue* queue_;
+  std::optional<RecordingWriter> recording_;
+  bool recording_ended_ = false;  ///< By a failure, which has been said.
+  ModelPace model_pace_;
+  std::vector<SampleList> models_;  ///< Without a queue.
   std::string record_path_;
   std::optional<StampNs> first_ns_;
   bool failed_ = false;

@@ -97,6 +97,10 @@ std::string RunMetrics::Text() const {
     if (!objects_.empty())
       writer.Add("", static_cast<double>(objects_.front().newest.sensor.*counter.member));
   }
+  writer.Begin("recording_dropped_total", "counter",
+               "Frames that the recording lacks because the disk did not keep up");
+  if (!objects_.empty())
+    writer.Add("", static_cast<double>(objects_.front().newest.recording_dropped));
   writer.Begin("state", "gauge", "1 for the state that the object is in");
   for (const Object& o : objects_) {
     if (!o.has_result) continue;

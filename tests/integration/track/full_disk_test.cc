@@ -58,6 +58,19 @@ TEST_F(FullDisk, RecordingAndTrajectory_EndWithWholeFramesAndRows) {
   EXPECT_EQ(ReadFile(disk_->Path("run.csv")).back(), '\n');
 }
 
+/// Behind the queue.
+TEST_F(FullDisk, RecordingOfALiveSensor_EndsWithWholeFrames) {
+  if (!Mount("size=3m")) GTEST_SKIP() << disk_->refusal();
+  const Outcome outcome = Track({"--rate", "live", "--record", disk_->Path("rec")});
+  EXPECT_EQ(outcome.exit_status, 4) << outcome.err;
+  EXPECT_NE(outcome.err.find("No space left on device; nothing more is recorded after "),
+            std::string::npos)
+      << outcome.err;
+  EXPECT_NE(outcome.err.find(" frames in"), std::string::npos)
+      << "tracking goes on: " << outcome.err;
+  EXPECT_GE(FramesOf("replay:" + disk_->Path("rec")), 2U);
+}
+
 TEST_F(FullDisk, WithoutNamesForFurtherFiles_RecordingEndsWithWholeFrames) {
   if (!Mount("size=100m,nr_inodes=20")) GTEST_SKIP() << disk_->refusal();
   ExpectSaid(Track({"--record", disk_->Path("rec")}), "20");

@@ -9,19 +9,12 @@
 #include "child_process.h"
 #include "estimate_csv.h"
 #include "eventually.h"
+#include "said_number.h"
 #include "scratch_folder.h"
 #include "service_manager.h"
 
 namespace disflow::test {
 namespace {
-
-/// The number before `words` in a report.
-int NumberBefore(const std::string& text, const std::string& words) {
-  const std::size_t end = text.find(" " + words);
-  if (end == std::string::npos) return -1;
-  const std::size_t begin = text.find_last_not_of("0123456789", end - 1) + 1;
-  return std::stoi(text.substr(begin, end - begin));
-}
 
 class LiveTest : public ScratchFolderTest {};
 

@@ -65,6 +65,32 @@ TEST_F(TrackingTest, TwoRunsOfOneReplay_GiveTheSameBytes) {
   EXPECT_FALSE(ReadFile(Path("a.ply")).empty());
 }
 
+#if defined(DISFLOW_HAS_BAG_RECORDING)
+TEST_F(TrackingTest, FileOfMessages_PlaysByItsNameAlone) {
+  const std::string file = Path("run_12:30.mcap");  // a colon as after a scheme
+  ASSERT_EQ(RunTrack({"--sensor", "sim:box?motion=fast&noise=white&mask=none&frames=10", "--record",
+                      file, "--csv", Path("run.csv"), "--no-timing"},
+                     scratch())
+                .exit_status,
+            0);
+  const Outcome again =
+      RunTrack({"--sensor", file, "--csv", Path("again.csv"), "--no-timing"}, scratch());
+  ASSERT_EQ(again.exit_status, 0) << again.err;
+  EXPECT_NE(again.err.find("its depth images are those of /disflow/depth/image_rect_raw"),
+            std::string::npos)
+      << again.err;
+  EXPECT_EQ(ReadFile(Path("again.csv")), ReadFile(Path("run.csv")));
+  ASSERT_EQ(
+      RunTrack({"--sensor", file + "?count=3", "--csv", Path("part.csv")}, scratch()).exit_status,
+      0);
+  EXPECT_EQ(apps::LoadEstimates(Path("part.csv"), 3).rows.size(), 3U);
+  const Outcome nowhere = RunTrack({"--sensor", Path("nowhere.mcap")}, scratch());
+  EXPECT_EQ(nowhere.exit_status, 3);
+  EXPECT_NE(nowhere.err.find("nowhere.mcap: No such file or directory"), std::string::npos)
+      << nowhere.err;
+}
+#endif
+
 TEST_F(TrackingTest, RecordedFrames_ReplayToTheSameTrajectory) {
   const Outcome live =
       RunTrack({"--sensor", "sim:box?motion=fast&noise=white&frames=20", "--record",

@@ -56,8 +56,9 @@ Fault SetOption(std::string_view key, std::string_view value, BagOptions& option
                    ShownText(key, 64).c_str());
 }
 
-/// What follows from the depth topic's name.
-void AddDefaults(BagOptions& options) {
+}  // namespace
+
+void SetTopicDefaults(BagOptions& options) {
   // As librealsense records: /device_0/sensor_0/Depth_0/image/data. Its depth images are rectified.
   constexpr std::string_view kRealSense = "/image/data";
   const std::string& depth = options.depth_topic;
@@ -69,8 +70,6 @@ void AddDefaults(BagOptions& options) {
   if (!options.rectified) options.rectified = !is_realsense && IsRectifiedTopic(depth);
 }
 
-}  // namespace
-
 Fault ParseBagUri(const host::Uri& uri, BagOptions& options) {
   BagOptions parsed;
   parsed.path = uri.path;
@@ -78,17 +77,12 @@ Fault ParseBagUri(const host::Uri& uri, BagOptions& options) {
     const Fault fault = SetOption(key, value, parsed);
     if (!fault.ok()) return fault;
   }
-  if (parsed.depth_topic.empty()) {
-    return MakeFault(Status::kInvalidUri,
-                     "depth= is missing; write rosbag:FILE?depth=TOPIC, e.g. "
-                     "depth=/camera/depth/image_rect_raw (ros2 bag info lists the topics)");
-  }
   if (!parsed.camera_frame.empty() && parsed.world_frame.empty()) {
     return MakeFault(
         Status::kInvalidUri,
         "camera= is for the camera's poses; write world=FRAME as well, e.g. world=map");
   }
-  AddDefaults(parsed);
+  if (!parsed.depth_topic.empty()) SetTopicDefaults(parsed);
   options = parsed;
   return {};
 }

@@ -8,6 +8,7 @@
 
 #include "camera_messages.h"
 #include "disflow/hal/fault.h"
+#include "topic_names.h"
 
 namespace disflow::posix {
 
@@ -27,8 +28,8 @@ class BagReader {
   [[nodiscard]] virtual hal::Fault Next(BagMessage& message) = 0;
   /// What is not whole although it can be played, for people; empty if all is.
   [[nodiscard]] virtual std::string note() const { return {}; }
-  /// Topics that came by until now, for people.
-  [[nodiscard]] virtual std::string topics() const = 0;
+  /// Topics that came by until now.
+  [[nodiscard]] virtual const TopicNames& names() const noexcept = 0;
 
  protected:
   BagReader() = default;

@@ -7,6 +7,7 @@
 
 #include "camera_messages.h"
 #include "camera_path.h"
+#include "depth_topics.h"
 #include "disflow/host/image_limits.h"
 #include "disflow/posix/shown_text.h"
 #include "disflow/saturating.h"
@@ -251,6 +252,14 @@ Fault BagSensor::DoOpen() noexcept try {
   if (state.open) return {};
   Fault fault = ListBagFiles(options_.path, state.files);
   if (fault.ok()) fault = NoteWhatIsCut(state.files, state.note);
+  if (fault.ok() && options_.depth_topic.empty()) {
+    fault = FindDepthTopic(state.files, options_);
+    if (fault.ok()) {
+      state.note.append(state.note.empty() ? "" : "; ")
+          .append(options_.path.string() + ": its depth images are those of ")
+          .append(options_.depth_topic);
+    }
+  }
   if (fault.ok()) fault = state.FindSize();
   state.open = fault.ok();
   name_ = options_.depth_topic + " of " + options_.path.string();

@@ -30,9 +30,7 @@ Fault Judge(const MessageReader& reader, const BagMessage& message, const Fault&
                         message.type.data());
 }
 
-bool IsMessage(const BagMessage& message, std::string_view package,
-               std::string_view name) noexcept {
-  std::string_view type = message.type;
+bool IsType(std::string_view type, std::string_view package, std::string_view name) noexcept {
   if (!type.starts_with(package)) return false;
   type.remove_prefix(package.size());
   if (type.starts_with("msg/")) type.remove_prefix(4);
@@ -41,8 +39,8 @@ bool IsMessage(const BagMessage& message, std::string_view package,
 
 }  // namespace
 
-bool IsSensorMessage(const BagMessage& message, std::string_view name) noexcept {
-  return IsMessage(message, "sensor_msgs/", name);
+bool IsSensorType(std::string_view type, std::string_view name) noexcept {
+  return IsType(type, "sensor_msgs/", name);
 }
 
 std::string_view ReadFrameName(const BagMessage& message) {
@@ -55,7 +53,8 @@ std::string_view ReadFrameName(const BagMessage& message) {
 
 Fault ReadTransforms(const BagMessage& message, std::vector<RosTransform>& transforms) {
   transforms.clear();
-  if (!IsMessage(message, "tf2_msgs/", "TFMessage") && !IsMessage(message, "tf/", "tfMessage")) {
+  if (!IsType(message.type, "tf2_msgs/", "TFMessage") &&
+      !IsType(message.type, "tf/", "tfMessage")) {
     return hal::MakeFault(Status::kCorrupt, "is of type %s; tf2_msgs/msg/TFMessage is needed",
                           ShownText(message.type, 64).c_str());
   }

@@ -20,8 +20,13 @@ struct BagMessage {
   std::span<std::uint8_t> data;
 };
 
-/// @return Whether a message is of a type of the package sensor_msgs, of ROS 2 or ROS 1.
-[[nodiscard]] bool IsSensorMessage(const BagMessage& message, std::string_view name) noexcept;
+/// @return Whether a type is one of the package sensor_msgs, of ROS 2 or ROS 1.
+[[nodiscard]] bool IsSensorType(std::string_view type, std::string_view name) noexcept;
+/// The same of a message's.
+[[nodiscard]] inline bool IsSensorMessage(const BagMessage& message,
+                                          std::string_view name) noexcept {
+  return IsSensorType(message.type, name);
+}
 
 /// @return The frame that stands in the header of a message that begins with one; empty: none.
 [[nodiscard]] std::string_view ReadFrameName(const BagMessage& message);

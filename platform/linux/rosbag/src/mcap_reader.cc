@@ -216,13 +216,13 @@ Fault McapReader::TakeChannel(ByteCursor cursor) {
   const std::string_view topic = cursor.TakeText();
   const std::string_view encoding = cursor.TakeText();
   if (!cursor.ok()) return file_.Corrupt(at_, "a channel is not whole");
-  names_.Add(topic);
+  const auto type = schemas_.find(schema);
+  names_.Add(topic, type == schemas_.end() ? "" : type->second);
   if (topic != topic_ || channels_.size() >= kMostChannels) return {};
   if (encoding != "cdr" && encoding != "ros1") {
     return MakeFault(Status::kUnsupported, "%s: %s is encoded as '%s'; cdr (ROS 2) can be read",
                      file_.path().c_str(), topic_.c_str(), ShownText(encoding, 20).c_str());
   }
-  const auto type = schemas_.find(schema);
   channels_[id] = {type == schemas_.end() ? "" : type->second,
                    encoding == "cdr" ? Serialization::kCdr : Serialization::kRos1};
   return {};

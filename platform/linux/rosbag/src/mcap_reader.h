@@ -24,7 +24,7 @@ class McapReader final : public BagReader {
 
   [[nodiscard]] hal::Fault Next(BagMessage& message) override;
   [[nodiscard]] std::string note() const override;
-  [[nodiscard]] std::string topics() const override { return names_.List(); }
+  [[nodiscard]] const TopicNames& names() const noexcept override { return names_; }
 
  private:
   struct Record {

@@ -155,7 +155,7 @@ Fault Ros1Reader::TakeRecord(const Header& header, std::span<std::uint8_t> data,
 Fault Ros1Reader::TakeConnection(const Header& header, std::span<std::uint8_t> data) {
   Header connection;
   if (!ReadHeader(data, connection)) return file_.Corrupt(chunk_begin_, "a connection is damaged");
-  names_.Add(header.topic);
+  names_.Add(header.topic, connection.type);
   if (header.topic != topic_ || connections_.size() >= kMostConnections) return {};
   connections_[header.connection] = connection.type.substr(0, kLongestTypeName);
   return {};

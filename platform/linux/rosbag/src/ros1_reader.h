@@ -22,7 +22,7 @@ class Ros1Reader final : public BagReader {
 
   [[nodiscard]] hal::Fault Next(BagMessage& message) override;
   [[nodiscard]] std::string note() const override;
-  [[nodiscard]] std::string topics() const override { return names_.List(); }
+  [[nodiscard]] const TopicNames& names() const noexcept override { return names_; }
 
  private:
   /// A record's header taken apart; what is not in it is zero or empty.

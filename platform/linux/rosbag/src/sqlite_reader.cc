@@ -99,10 +99,11 @@ Fault SqliteReader::FindTopic(const std::string& topic) {
   int result = SQLITE_ROW;
   while ((result = sqlite3_step(statement.get())) == SQLITE_ROW) {
     const std::string_view name = TextAt(statement.get(), 1);
-    names_.Add(name);
+    const std::string_view type = TextAt(statement.get(), 2).substr(0, 255);
+    names_.Add(name, type);
     if (name != topic) continue;
     id = sqlite3_column_int64(statement.get(), 0);
-    type_ = TextAt(statement.get(), 2).substr(0, 255);
+    type_ = type;
     const std::string_view format = TextAt(statement.get(), 3);
     if (format != "cdr") {
       return MakeFault(Status::kUnsupported, "%s: %s is encoded as '%s'; cdr can be read",

@@ -22,7 +22,7 @@ class SqliteReader final : public BagReader {
   [[nodiscard]] hal::Fault Open(const std::filesystem::path& file, const std::string& topic);
 
   [[nodiscard]] hal::Fault Next(BagMessage& message) override;
-  [[nodiscard]] std::string topics() const override { return names_.List(); }
+  [[nodiscard]] const TopicNames& names() const noexcept override { return names_; }
 
  private:
   struct Close {

@@ -63,7 +63,7 @@ Fault TopicStream::Next(BagMessage& message) {
 }
 
 Fault TopicStream::Missing() const {
-  const std::string topics = reader_->topics();
+  const std::string topics = names().List();
   return MakeFault(Status::kNotFound, "%s: has no message of %s; it has%s", files_.front().c_str(),
                    topic_.c_str(), topics.empty() ? " none at all" : topics.c_str());
 }

@@ -28,6 +28,8 @@ class TopicStream {
   [[nodiscard]] hal::Fault Next(BagMessage& message);
 
   [[nodiscard]] const std::string& topic() const noexcept { return topic_; }
+  /// Topics that came by in the file that is being read. @pre Open()
+  [[nodiscard]] const TopicNames& names() const noexcept { return reader_->names(); }
   /// That the topic is not there, and which are.
   [[nodiscard]] hal::Fault Missing() const;
 

@@ -45,10 +45,19 @@ TEST(BagAddress, WhatIsNotSaid_FollowsFromTheDepthTopic) {
   EXPECT_EQ(options.rectified, false);
 }
 
+TEST(BagAddress, WithoutDepthTopic_NothingFollowsUntilOneIsFound) {
+  BagOptions options;
+  ASSERT_TRUE(Parse("rosbag:run.mcap", options).ok());
+  EXPECT_EQ(options.path, "run.mcap");
+  EXPECT_EQ(options.depth_topic, "");
+  EXPECT_EQ(options.info_topic, "");
+  EXPECT_FALSE(options.rectified.has_value());
+}
+
 TEST(BagAddress, WrongOnes_AreNamedAndChangeNothing) {
   for (const auto& [text, named] :
-       {std::pair("rosbag:x", "depth="), std::pair("rosbag:x?depth=image", "depth=image"),
-        std::pair("rosbag:x?depth=/", "no topic"), std::pair("rosbag:x?depth=/a/", "no topic"),
+       {std::pair("rosbag:x?depth=image", "depth=image"), std::pair("rosbag:x?depth=/", "no topic"),
+        std::pair("rosbag:x?depth=/a/", "no topic"),
         std::pair("rosbag:x?depth=/a&rectified=1", "rectified"),
         std::pair("rosbag:x?depth=/a&count=0", "count"),
         std::pair("rosbag:x?depth=/a&world=", "world"),

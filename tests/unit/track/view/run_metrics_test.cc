@@ -36,6 +36,7 @@ TEST(RunMetrics, NewestTotals_AreThoseOfEachObject) {
   result.totals.frames = 7;
   result.totals.clusters_evicted = 4294967295U;
   result.sensor.dropped = 3;
+  result.recording_dropped = 9;
   result.model_coarseness = 1.5F;
   metrics.Add(0, result);
   metrics.SetLost(0, 5);
@@ -43,6 +44,7 @@ TEST(RunMetrics, NewestTotals_AreThoseOfEachObject) {
   EXPECT_EQ(ValueOf(text, "disflow_frames_total{object=\"box\"}"), 7.0);
   EXPECT_EQ(ValueOf(text, "disflow_clusters_evicted_total{object=\"box\"}"), 4294967295.0);
   EXPECT_EQ(ValueOf(text, "disflow_sensor_dropped_total"), 3.0);
+  EXPECT_EQ(ValueOf(text, "disflow_recording_dropped_total"), 9.0);
   EXPECT_EQ(ValueOf(text, "disflow_results_not_seen_total{object=\"box\"}"), 5.0);
   EXPECT_EQ(ValueOf(text, "disflow_quality{object=\"box\"}"), 40.0);
   EXPECT_EQ(ValueOf(text, "disflow_model_coarseness{object=\"box\"}"), 1.5);

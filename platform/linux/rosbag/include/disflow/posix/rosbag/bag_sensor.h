@@ -21,7 +21,8 @@ class BagSensor final : public hal::DepthSensor {
   explicit BagSensor(BagOptions options);
   ~BagSensor();
 
-  /// What is not whole although it can be played, for people; empty if all is.
+  /// What is not whole although it can be played, and which depth images were found if the options
+  /// name none, for people; empty: neither.
   [[nodiscard]] const std::string& note() const;
 
  private:
