@@ -52,7 +52,7 @@ class ForeignSurface : public ::testing::Test {
     EXPECT_EQ(sequence->last().estimate.state, TrackingState::kTracking);
     EXPECT_EQ(sequence->last().estimate.reset_counter, 0);
     EXPECT_LT(sequence->last().off_m, 0.003);
-    EXPECT_LT(sequence->last().off_deg, 1.0);
+    EXPECT_LT(sequence->last().off_deg, 1.5);  // a bottle's turn is known to about a degree
     EXPECT_LE(sequence->LongestLie(), 3);
   }
 
