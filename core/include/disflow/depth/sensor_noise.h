@@ -44,9 +44,11 @@ class SensorNoise {
   [[nodiscard]] float BlockNoise(const Grid& grid) noexcept {
     constexpr int kMinWindows = 8;
     const auto pixels = static_cast<float>(kSide * kSide * grid.block_px() * grid.block_px());
+    // The widest windows overlap the most and cost the most.
+    constexpr int kMostWindows = kSide < 3 ? kNoiseBlocks : kNoiseBlocks / 4;
     int count = 0;
-    const int stride = std::max(1, grid.columns() * grid.rows() / kNoiseBlocks);
-    for (int i = 0; i < grid.columns() * grid.rows() && count < kNoiseBlocks; i += stride) {
+    const int stride = std::max(1, grid.columns() * grid.rows() / kMostWindows);
+    for (int i = 0; i < grid.columns() * grid.rows() && count < kMostWindows; i += stride) {
       BlockMeans means;
       if (!MeansOf<kSide>(grid, i % grid.columns(), i / grid.columns(), pixels, means)) continue;
       residuals_[static_cast<std::size_t>(count++)] = ThirdOrderVariance(means);
