@@ -184,7 +184,6 @@ void BagRecording::State::PutTransform(const ros::TransformStamped& transform) {
 }
 
 void BagRecording::State::PutClouds(std::span<const SampleList> models) {
-  static_assert(kModelPeriod_ns == DdsModelCloud::kPeriod_ns);
   for (std::size_t i = 0; i < models.size(); ++i) {
     RecordedObject& object = objects[i];
     Put(kFirstObject + i * kPerObject + kCloud,

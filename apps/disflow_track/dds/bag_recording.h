@@ -17,9 +17,6 @@ namespace disflow::apps {
 /// that `--link dds:` sends.
 class BagRecording {
  public:
-  /// Between two frames whose models are recorded: as often as over DDS.
-  static constexpr std::int64_t kModelPeriod_ns = 500'000'000;
-
   /// @return Whether a path of --record is meant for this.
   [[nodiscard]] static bool IsMeant(const std::string& path) { return path.ends_with(".mcap"); }
 

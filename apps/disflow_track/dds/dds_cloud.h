@@ -31,9 +31,6 @@ class DdsCloud {
 /// The fused samples of the model, object frame: x y z, normal_x normal_y normal_z, std.
 class DdsModelCloud final : public SampleSink {
  public:
-  /// From one message to the next.
-  static constexpr std::int64_t kPeriod_ns = 500'000'000;
-
   /// @param model A ModelSnapshot or a TrackedObject.
   template <class Model>
   [[nodiscard]] posix::ros::PointCloud2 Message(const Model& model, std::int64_t ros_ns,

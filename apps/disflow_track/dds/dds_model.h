@@ -8,6 +8,7 @@
 #include "dds/dds_query.h"
 #include "disflow/posix/dds/ros_node.h"
 #include "objects/object_channel.h"
+#include "objects/sample_list.h"
 
 namespace disflow::apps {
 
@@ -56,7 +57,7 @@ class DdsModel {
   DdsModelCloud cloud_;
   DdsFlowCloud flow_;
   DdsSurface surface_;
-  Slow cloud_plan_{DdsModelCloud::kPeriod_ns};
+  Slow cloud_plan_{kModelPeriod_ns};
   Slow flow_plan_{100'000'000};
   Slow surface_plan_{2'000'000'000};
   bool asked_ = false;  ///< A copy has been asked for and has not been used up.

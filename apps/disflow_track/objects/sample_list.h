@@ -2,11 +2,15 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "disflow/surface_extractor.h"
 
 namespace disflow::apps {
+
+/// From one message or recording of a model's samples to the next.
+inline constexpr std::int64_t kModelPeriod_ns = 500'000'000;
 
 /// The samples of a model at one moment, for those who look at them when the tracker has gone on.
 class SampleList final : public SampleSink {

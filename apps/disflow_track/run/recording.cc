@@ -67,7 +67,7 @@ std::unique_ptr<Recording> OpenRecording(const Options& options, const hal::Sens
 
 bool ModelPace::IsDue(StampNs stamp_ns) const noexcept {
   // Stamps that run backwards belong to what is played again.
-  return !last_ns_ || stamp_ns < *last_ns_ || stamp_ns - *last_ns_ >= BagRecording::kModelPeriod_ns;
+  return !last_ns_ || stamp_ns < *last_ns_ || stamp_ns - *last_ns_ >= kModelPeriod_ns;
 }
 
 RecordingWriter::RecordingWriter(std::unique_ptr<Recording> recording)

@@ -6,7 +6,6 @@ Wants root, systemd-journald and journalctl; the form of every entry is tested w
 """
 import json
 import os
-import re
 import shutil
 import subprocess
 import sys
@@ -28,7 +27,12 @@ fi
 journald=$!
 while [ ! -S /run/systemd/journal/socket ]; do kill -0 $journald; sleep 0.05; done
 "$2" --sensor 'sim:box?frames=40&noise=white' --rate live --log journald --cpu 1000
-# What has come is written when the journal ends.
+# A journal that is told to end reads nothing more of what waits for it, as on a busy machine the last lines of the program do.
+tries=200
+until journalctl --no-pager -q -D /run/log/journal -t disflow_track | grep -q 'frames dropped' || [ $tries -eq 0 ]; do
+  tries=$((tries - 1))
+  sleep 0.1
+done
 kill $journald
 wait $journald || true
 cp -r /run/log/journal "$3"
@@ -72,9 +76,7 @@ class Journal(unittest.TestCase):
     def test_what_is_not_as_wanted_is_a_warning_and_nothing_is_said_elsewhere(self):
         warnings = self.entries("-t", "disflow_track", "-p", "warning")
         self.assertEqual([entry["MESSAGE"].partition(":")[0] for entry in warnings], ["tracking thread"])
-        # A busy machine may pass over frames of a live sensor.
-        messages = [entry["MESSAGE"] for entry in self.entries("-t", "disflow_track")]
-        self.assertTrue(any(re.search(r"\b[0-9]+ frames", message) for message in messages), messages)
+        self.assertTrue(any("40 frames" in entry["MESSAGE"] for entry in self.entries("-t", "disflow_track")))
         self.assertEqual(self._said, "")
 
 

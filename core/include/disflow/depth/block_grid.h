@@ -80,7 +80,7 @@ class BlockGrid {
     for (int i = kEmptyBlock + 1; i < filled_; ++i) {
       const PixelMoments& block = moments_[static_cast<std::size_t>(i)];
       n += block.n;
-      w += block.n * block.w_reference + block.w;
+      w += block.SumOfW();
     }
     return n > 0.0F ? w / n : 0.0F;
   }

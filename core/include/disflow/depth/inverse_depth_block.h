@@ -43,6 +43,8 @@ struct MomentsOf {
 
 /// PixelMoments{} holds no pixel.
 struct PixelMoments : MomentsOf<float> {
+  /// Of the pixels' whole inverse depths [1/m].
+  [[nodiscard]] float SumOfW() const noexcept { return n * w_reference + w; }
   /// Adds another block's sums, whose origin lies (du, dv) pixels from this one's.
   void Merge(const PixelMoments& other, float du, float dv) noexcept {
     if (other.n == 0.0F) return;

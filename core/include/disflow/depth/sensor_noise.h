@@ -73,7 +73,7 @@ class SensorNoise {
         const PixelMoments& block =
             grid.block(column + kSide * (k % 3) + i % kSide, row + kSide * (k / 3) + i / kSide);
         n += block.n;
-        w += block.n * block.w_reference + block.w;
+        w += block.SumOfW();
       }
       if (n < kFull * pixels) return false;
       means[static_cast<std::size_t>(k)] = w / n;

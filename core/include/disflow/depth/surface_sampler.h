@@ -95,29 +95,34 @@ class SurfaceSampler {
                 const SamplerConfig& config) noexcept {
     auto& sums = passes_.template Begin<typename Grid::Sums>();
     const int without_depth = grid_.Build(depth, interior, config, 0, sums);
-    MeasureScales();
+    MeasureScales(config);
     // Fewer blocks than this leave less to register than their better normals bring.
     constexpr float kFewestBlocks = 150.0F;
     const float most_px = std::sqrt(static_cast<float>(interior.count()) / kFewestBlocks);
     const auto least_px = static_cast<int>(std::fmin(EdgeForNormals(camera, config), most_px));
     if (least_px <= grid_.block_px()) return without_depth;
     (void)grid_.Build(depth, interior, config, least_px, sums);
-    MeasureScales();
+    MeasureScales(config);
     return without_depth;
   }
 
   /// Noise by blocks and by squares of 2x2 of them; where it is curvature that grows from one to
   /// the other, as on a bottle seen from its end, the squares say what the blocks say.
-  void MeasureScales() noexcept {
+  void MeasureScales(const SamplerConfig& config) noexcept {
     // From squares of 2x2 to such of 3x3 noise that pixels share grows to 1.5, curvature of third
     // order to 1.5^4.
     constexpr float kMostOfNoise = 2.0F;
-    blocks_std_ = noise_.template BlockNoise<1>(grid_);
-    squares_std_ = noise_.template BlockNoise<2>(grid_);
-    const float growth = squares_std_ / blocks_std_;
-    const bool is_noise = CorrelationFactor(growth * growth) > 1.0F &&
-                          noise_.template BlockNoise<3>(grid_) <= kMostOfNoise * squares_std_;
-    if (!is_noise) squares_std_ = blocks_std_;
+    const bool stated = config.inverse_depth_std_per_m > 0.0F;
+    blocks_std_ = stated ? config.inverse_depth_std_per_m : noise_.template BlockNoise<1>(grid_);
+    squares_std_ = means_std_ = blocks_std_;
+    if (stated) return;
+    const float squares_std = noise_.template BlockNoise<2>(grid_);
+    const float growth = squares_std / blocks_std_;
+    const float factor = CorrelationFactor(growth * growth);
+    if (!(factor > 1.0F)) return;
+    if (noise_.template BlockNoise<3>(grid_) > kMostOfNoise * squares_std) return;
+    squares_std_ = squares_std;
+    means_std_ = blocks_std_ * std::sqrt(factor);
   }
 
   /// Edge of blocks, in pixels, at which a window that faces the camera has its normal to
@@ -130,22 +135,16 @@ class SurfaceSampler {
     const float w = grid_.MeanInverseDepth();
     if (!(w > 0.0F)) return 0.0F;
     // Of squares of blocks: blocks may be smaller than what errs alike, which hides the noise.
-    const float noise_std =
-        config.inverse_depth_std_per_m > 0.0F ? config.inverse_depth_std_per_m : squares_std_;
-    const float tilt_px2 = kRootOf12 * noise_std * camera.fx_px / w;
+    const float tilt_px2 = kRootOf12 * squares_std_ * camera.fx_px / w;
     return std::round(std::sqrt(tilt_px2 / config.normal_std_rad) / kBlocks);
   }
 
   void MeasureNoise(const SamplerConfig& config) noexcept {
-    mean_noise_factor_ = 1.0F;
-    noise_std_ = config.inverse_depth_std_per_m;
-    if (noise_std_ > 0.0F) return;
     noise_std_ =
-        std::max({noise_.PixelNoise(grid_), blocks_std_, config.min_inverse_depth_std_per_m});
-    if (!(blocks_std_ > 0.0F)) return;
-    const float growth = squares_std_ / blocks_std_;
-    const float means_std = blocks_std_ * std::sqrt(CorrelationFactor(growth * growth));
-    mean_noise_factor_ = std::fmax(1.0F, means_std / noise_std_);
+        config.inverse_depth_std_per_m > 0.0F
+            ? config.inverse_depth_std_per_m
+            : std::max({noise_.PixelNoise(grid_), blocks_std_, config.min_inverse_depth_std_per_m});
+    mean_noise_factor_ = std::fmax(1.0F, means_std_ / noise_std_);
   }
 
   /// @param whole The block's whole window.
@@ -269,6 +268,7 @@ class SurfaceSampler {
   float noise_std_ = 0.0F;
   float blocks_std_ = 0.0F;   ///< By how far the means of blocks scatter; 0 if nothing is known.
   float squares_std_ = 0.0F;  ///< The same of squares of 2x2 blocks.
+  float means_std_ = 0.0F;    ///< As blocks_std_, with what neighbouring blocks share.
   /// How much larger the noise per pixel is that explains how far the means of blocks are off.
   float mean_noise_factor_ = 1.0F;
 };
