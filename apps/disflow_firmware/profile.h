@@ -14,7 +14,7 @@ struct Small {
   static constexpr int kMaxImageHeight = 120;
   static constexpr int kMaxRuns = 768;
   static constexpr int kMaxBlocks = 1024;
-  static constexpr int kMaxSurfaceSamples = 373;
+  static constexpr int kMaxSurfaceSamples = 367;
   static constexpr int kMaxEdgePoints = 96;
   static constexpr int kMaxNodes = 384;
   static constexpr int kMaxClusters = 224;

@@ -12,7 +12,9 @@
 #include "disflow/estimate.h"
 #include "disflow/field/distance_field.h"
 #include "disflow/field/edge_map.h"
+#include "disflow/flow/first_view.h"
 #include "disflow/flow/free_axis.h"
+#include "disflow/flow/place_slip.h"
 #include "disflow/flow/pose_noise.h"
 #include "disflow/flow/recognition.h"
 #include "disflow/flow/registration.h"
@@ -114,9 +116,13 @@ class Tracker {
     Mat6 twist_unobserved = Mat6::Zero();
     Mat6 unobserved_o = Mat6::Zero();  ///< The same as this frame says it, in object axes.
     Mat6 free_turn_o = Mat6::Zero();
-    bool complete = true;    ///< The frame tells of all directions.
-    bool unheld = false;     ///< Along one that it does not tell of the object may lie elsewhere.
-    float outline_m = 0.0F;  ///< How far outlines are off, at the object.
+    bool complete = true;  ///< The frame tells of all directions.
+    bool unheld = false;   ///< Along one that it does not tell of the object may lie elsewhere.
+    Mat6 free_shift_o = Mat6::Zero();  ///< Along what, as far as in a second, object axes.
+    float unobserved_s = 0.0F;
+    bool held_by_known = false;        ///< In its place, by what was known before it may have slid.
+    Mat6 registered_o = Mat6::Zero();  ///< Of the registration, of the origin, object axes.
+    float outline_m = 0.0F;            ///< How far outlines are off, at the object.
   };
 
   void Begin(const DepthFrame& frame, Estimate& estimate) noexcept;
@@ -134,10 +140,16 @@ class Tracker {
   [[nodiscard]] Status Conclude(const DepthFrame& frame, Status observed, const Aligned& aligned,
                                 Estimate& estimate) noexcept;
   [[nodiscard]] bool IsTurnFree(StampNs stamp_ns) const noexcept;
+  [[nodiscard]] FreeShift NextFreeShift() noexcept;
+  [[nodiscard]] Aligned FindShift(Registration<Limits>& registration, const Aligned& aligned,
+                                  RobustScale scale) noexcept;
   [[nodiscard]] Aligned FindTurn(const DepthFrame& frame, Registration<Limits>& registration,
                                  const Aligned& aligned, RobustScale scale, float& score) noexcept;
   void Forget(Handles& forgotten, Estimate& estimate) noexcept;
+  template <class Marked>
+  void ForgetAll(const Marked& marked, Estimate& estimate) noexcept;
   void ForgetFoundTurnFree(Estimate& estimate) noexcept;
+  void ForgetFoundShiftFree(Estimate& estimate) noexcept;
   [[nodiscard]] bool FitsModel(const Vec3& center_c) const noexcept;
   void Follow(StampNs stamp_ns, const Aligned& aligned, const PoseCovariance& covariance,
               bool found_again, Estimate& estimate) noexcept;
@@ -149,6 +161,7 @@ class Tracker {
   [[nodiscard]] Mat6 Steadied(const Mat6& unobserved_o, const Mat6& free_turn_o) const noexcept;
   [[nodiscard]] Mat6 TwistCovariance(const TwistFilter& filter,
                                      const Mat6& pose_covariance) const noexcept;
+  [[nodiscard]] bool IsHeldBy(RegistrationInformation known) const noexcept;
   [[nodiscard]] PoseCovariance CovarianceOf(const Aligned& aligned,
                                             const DepthFrame& frame) const noexcept;
   [[nodiscard]] bool IsForeign(const Vec3& x_o) const noexcept;
@@ -182,6 +195,8 @@ class Tracker {
   Mat6 unobserved_o_ = Mat6::Zero();  ///< What the surface did not tell of its twist, object axes.
   Mat6 free_turn_o_ = Mat6::Zero();   ///< What of it is a turn about an axis of the object's own.
   bool unheld_ = false;               ///< Nothing held the last registered pose in its place.
+  PlaceSlip slip_;
+  FirstView first_view_;
   FreeAxis free_axis_;
   int observed_frames_ = 0;  ///< In a row that told of all directions, up to kFramesUntilObserved.
   StampNs observed_ns_ = 0;  ///< When the surface last told the pose in all directions.

@@ -15,6 +15,7 @@
 #include "disflow/tracker.h"
 #include "disflow/tracker_model_impl.h"
 #include "disflow/tracker_pose_impl.h"
+#include "disflow/tracker_search_impl.h"
 
 /// @file
 /// Definitions of Tracker's members. Only needed to instantiate a profile of your own; the shipped
@@ -250,7 +251,9 @@ void Tracker<Limits>::StartAt(StampNs stamp_ns, const PoseObjectFromCamera& T_oc
   unobserved_o_.setZero();
   free_turn_o_.setZero();
   unheld_ = false;
+  slip_.Start(stamp_ns);
   turn_part_ = 0;
+  first_view_.Start();
   twist_filter_.Start(config_.twist, stamp_ns, T_oc.Inverse(), registered_covariance_);
   observed_ns_ = stamp_ns;
   monitor_.Start(config_.monitor, stamp_ns);
@@ -272,6 +275,7 @@ void Tracker<Limits>::MoveTo(StampNs stamp_ns, const PoseObjectFromCamera& T_oc)
   unobserved_o_.setZero();
   free_turn_o_.setZero();
   unheld_ = false;
+  slip_.Start(stamp_ns);
   observed_ns_ = stamp_ns;
   monitor_.Update({.registered = true,
                    .score = 1.0F,

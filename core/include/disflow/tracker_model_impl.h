@@ -57,8 +57,11 @@ void Tracker<Limits>::ForgetContradicted(const DepthFrame& frame, const PoseObje
   const bool turn_free = IsTurnFree(frame.stamp_ns);
   (void)CompareWithImage(field_, T_oc, frame.camera, UsableDepth(frame),
                          [&](Handle handle, bool seen) {
-                           // At a turn that may be wrong nothing contradicts what was known.
-                           if (turn_free && !field_.store()[handle].turn_free) return;
+                           // At a turn or place that may be wrong nothing contradicts what was
+                           // known.
+                           const auto& cluster = field_.store()[handle];
+                           if (turn_free && !cluster.turn_free) return;
+                           if (slip_.free() && !cluster.shift_free) return;
                            if (field_.Witness(handle, seen)) (void)forgotten.push_back(handle);
                          });
   Forget(forgotten, estimate);
@@ -74,19 +77,33 @@ void Tracker<Limits>::Forget(Handles& forgotten, Estimate& estimate) noexcept {
   forgotten.clear();
 }
 
-/// Surface that was found while nothing told the turn lies elsewhere about the axis, once the turn
-/// is found: a mug would have two handles.
+/// @param marked marked(cluster): whether it is forgotten.
 template <CapacityProfile Limits>
-void Tracker<Limits>::ForgetFoundTurnFree(Estimate& estimate) noexcept {
+template <class Marked>
+void Tracker<Limits>::ForgetAll(const Marked& marked, Estimate& estimate) noexcept {
   bool more = true;
   while (more) {
     Handles forgotten;
     field_.store().ForEach([&](Handle handle, const auto& cluster) {
-      if (cluster.turn_free) (void)forgotten.push_back(handle);
+      if (marked(cluster)) (void)forgotten.push_back(handle);
     });
     more = forgotten.full();
     Forget(forgotten, estimate);
   }
+}
+
+/// Surface that was found while nothing told the turn lies elsewhere about the axis, once the turn
+/// is found: a mug would have two handles.
+template <CapacityProfile Limits>
+void Tracker<Limits>::ForgetFoundTurnFree(Estimate& estimate) noexcept {
+  ForgetAll([](const auto& cluster) { return cluster.turn_free; }, estimate);
+}
+
+/// The same of what was found while it may have slid: a box would have two lids.
+template <CapacityProfile Limits>
+void Tracker<Limits>::ForgetFoundShiftFree(Estimate& estimate) noexcept {
+  model_edges_.ForgetFoundShiftFree();
+  ForgetAll([](const auto& cluster) { return cluster.shift_free; }, estimate);
 }
 
 template <CapacityProfile Limits>

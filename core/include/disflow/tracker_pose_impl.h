@@ -12,7 +12,6 @@
 #include "disflow/flow/pose_search.h"
 #include "disflow/flow/pose_uncertainty.h"
 #include "disflow/flow/recentred.h"
-#include "disflow/flow/turn_search.h"
 #include "disflow/flow/weak_direction.h"
 #include "disflow/geometry/covariance.h"
 #include "disflow/memory/every_nth.h"
@@ -44,9 +43,14 @@ typename Tracker<Limits>::Aligned Tracker<Limits>::Register(const DepthFrame& fr
       registration.Align(field_, model_edges_, config_.registration, start.T_oc, start.T_expected,
                          start.robust_scale, config_.registration.iterations);
   if (aligned.solved) {
+    if (slip_.free()) aligned = FindShift(registration, aligned, start.robust_scale);
     estimate.score = registration.ScoreOfAligned(field_, config_.registration, aligned.T_oc);
     if (IsTurnFree(frame.stamp_ns) && free_axis_.IsOne(free_turn_o_)) {
       aligned = FindTurn(frame, registration, aligned, start.robust_scale, estimate.score);
+    }
+    if (slip_.free()) {
+      aligned.known =
+          registration.KnownInformation(field_, model_edges_, config_.registration, aligned);
     }
   }
   estimate.hypotheses = static_cast<std::uint8_t>(start.tried);
@@ -58,58 +62,6 @@ typename Tracker<Limits>::Aligned Tracker<Limits>::Register(const DepthFrame& fr
   estimate.rejected.residuals_truncated = static_cast<std::uint32_t>(aligned.truncated);
   estimate.rejected.residuals_normal_mismatch = static_cast<std::uint32_t>(aligned.normal_mismatch);
   return aligned;
-}
-
-/// Whether nothing has told the turn about an axis of the object's for some time.
-template <CapacityProfile Limits>
-bool Tracker<Limits>::IsTurnFree(StampNs stamp_ns) const noexcept {
-  constexpr float kForgotten_s = 0.3F;  // in which a hand may turn it by half of what it likes
-  return !free_turn_o_.isZero(0.0F) && Seconds(SpanNs(observed_ns_, stamp_ns)) > kForgotten_s;
-}
-
-/// The registered pose, or one that is turned about the free axis and explains more.
-/// @param score Of what is returned.
-template <CapacityProfile Limits>
-typename Tracker<Limits>::Aligned Tracker<Limits>::FindTurn(const DepthFrame& frame,
-                                                            Registration<Limits>& registration,
-                                                            const Aligned& aligned,
-                                                            RobustScale scale,
-                                                            float& score) noexcept {
-  const TurnAxis axis = AxisOf(free_axis_.mean());
-  TurnSearch<Limits> search(field_, config_.registration, registration.samples(), aligned.T_oc,
-                            axis, turn_part_);
-  turn_part_ = (turn_part_ + 1) % TurnSearch<Limits>::kParts;
-  if (!search.Find()) return aligned;
-  Aligned turned = registration.Align(field_, model_edges_, config_.registration, search.T_found(),
-                                      search.T_found(), scale, config_.registration.iterations);
-  if (!turned.solved || !search.Confirms(turned.T_oc)) return aligned;
-  const auto plausible = [&](float explained, const PoseObjectFromCamera& T_oc) {
-    return explained * (1.0F - AgreementWith(frame, T_oc).conflict());
-  };
-  const float turned_score = registration.ScoreOfAligned(field_, config_.registration, turned.T_oc);
-  // Where it is now it has had the time to learn what it sees, at a turn that may be wrong.
-  const float least = plausible(score, aligned.T_oc) - TurnSearch<Limits>::kScatter;
-  if (plausible(turned_score, turned.T_oc) < least) return aligned;
-  score = turned_score;
-  turned.turned = true;
-  return turned;
-}
-
-/// Where to look for the object: near the prediction, after a few frames in vain turned anyhow, and
-/// where it was recognised.
-template <CapacityProfile Limits>
-PoseSearchPrior Tracker<Limits>::SearchPrior(StampNs stamp_ns) const noexcept {
-  PoseSearchPrior prior{T_oc_, T_oc_previous_, frame_index_ >= kFramesUntilVelocity,
-                        monitor_.Doubts(stamp_ns) ? monitor_.missed() + 1 : 0};
-  prior.contradicted = monitor_.contradicted();
-  prior.unheld = unheld_;
-  if (recognition_.pending() || recognition_.suspected()) {
-    prior.T_predicted = recognition_.T_oc();
-    prior.turned_over = true;
-  } else if (monitor_.searched() >= kLocalSearches) {
-    prior.global = global_part_;
-  }
-  return prior;
 }
 
 /// Believes the registered pose or not, and moves the twist filter and the monitor on.
@@ -196,6 +148,14 @@ void Tracker<Limits>::Follow(StampNs stamp_ns, const Aligned& aligned,
     pose_noise_.Restart();
   } else {
     twist_filter_.Predict(stamp_ns);
+    if (aligned.shifted) {
+      // How it moved along what nothing held it in was not known, either.
+      twist_filter_.MoveTo(T_oc_.Inverse());
+      twist_filter_.RestartMotion();
+      pose_noise_.Restart();
+      ForgetFoundShiftFree(estimate);
+      slip_.Found();
+    }
     if (aligned.turned) {
       twist_filter_.MoveTo(T_oc_.Inverse());
       pose_noise_.Restart();
@@ -216,6 +176,13 @@ void Tracker<Limits>::Follow(StampNs stamp_ns, const Aligned& aligned,
   unobserved_o_ = covariance.unobserved_o;
   free_turn_o_ = covariance.free_turn_o;
   unheld_ = covariance.unheld;
+  if (slip_.Learn(stamp_ns, unheld_, covariance.free_shift_o, covariance.unobserved_s,
+                  covariance.held_by_known)) {
+    field_.KeepFoundShiftFree();
+  }
+  field_.SetShiftFree(slip_.free());
+  model_edges_.SetShiftFree(slip_.free());
+  first_view_.Learn(covariance.registered_o, pose_noise_, covariance.outline_m);
   field_.SetTurnFree(IsTurnFree(stamp_ns));
   free_axis_.Learn(covariance.free_turn_o);
   observed_frames_ = covariance.complete ? std::min(observed_frames_ + 1, kFramesUntilObserved) : 0;
@@ -261,29 +228,6 @@ float Tracker<Limits>::ImageSpeed(const DepthFrame& frame) const noexcept {
   return speed_mps * pixel_per_m;
 }
 
-/// Whether a pose that was searched for is that of the same object frame by what is known of its
-/// motion. Many things look alike from opposite sides: neither may the pose be turned far from the
-/// predicted one, nor may the object have had the time to turn over since it was last seen. Of a
-/// turn about an axis about which it looks alike nothing was known before, either.
-template <CapacityProfile Limits>
-bool Tracker<Limits>::IsSameObjectFrame(const DepthFrame& frame,
-                                        const PoseObjectFromCamera& T_oc) const noexcept {
-  constexpr float kReach_rad = 0.7F;
-  constexpr float kFarthestTurn_rad = 1.6F;
-  constexpr float kLongest_s = 0.6F;  // what is moved by hand has come to anything by then
-  const float gap_s = Seconds(SpanNs(twist_filter_.stamp_ns(), frame.stamp_ns));
-  float turned_rad = TurnBetween(T_oc_.rotation(), T_oc.rotation()).norm();
-  float rate_rps = twist_filter_.twist().angular_rps.norm();
-  if (free_axis_.Leaves(free_turn_o_)) {
-    const Vec3 axis_o = AxisOf(free_axis_.mean()).direction;
-    const Vec3 predicted_c = T_oc_.rotation().transpose() * axis_o;
-    const Vec3 axis_c = T_oc.rotation().transpose() * axis_o;
-    turned_rad = std::acos(std::clamp(predicted_c.dot(axis_c), -1.0F, 1.0F));
-    rate_rps = twist_filter_.twist().angular_rps.cross(predicted_c).norm();
-  }
-  return gap_s <= kLongest_s && turned_rad <= kReach_rad && gap_s * rate_rps <= kFarthestTurn_rad;
-}
-
 /// What is known of the motion of an object that is not seen. The filter itself stays at the last
 /// registered frame: an acceleration measured there would carry a lost object away.
 template <CapacityProfile Limits>
@@ -316,6 +260,16 @@ Mat6 Tracker<Limits>::TwistCovariance(const TwistFilter& filter,
 template <CapacityProfile Limits>
 Mat6 Tracker<Limits>::Steadied(const Mat6& unobserved_o, const Mat6& free_turn_o) const noexcept {
   return unobserved_o - free_turn_o + free_axis_.Steadied(free_turn_o);
+}
+
+/// Whether what was known before the object may have slid holds it in its place.
+template <CapacityProfile Limits>
+bool Tracker<Limits>::IsHeldBy(RegistrationInformation known) const noexcept {
+  known.gradient_variance_rad2 =
+      RememberGradientVariance(gradient_variance_rad2_, known.gradient_variance_rad2);
+  const PoseUncertainty uncertainty =
+      FindPoseUncertainty(known, config_.registration.gradient_std_rad);
+  return uncertainty.solved && !uncertainty.MayShift();
 }
 
 /// Covariances of (origin's position, rotation) in camera axes.
@@ -370,9 +324,16 @@ typename Tracker<Limits>::PoseCovariance Tracker<Limits>::CovarianceOf(
       RotatedCovariance(Steadied(result.unobserved_o, result.free_turn_o), R_co);
   result.complete = uncertainty.IsComplete();
   result.unheld = uncertainty.MayShift();
-  if (!result.twist_unobserved.isZero(0.0F)) {
-    result.reported += OnItsArc(unobserved_s * unobserved_s * result.twist_unobserved);
-  }
+  result.free_shift_o = result.unobserved_o - result.free_turn_o;
+  result.unobserved_s = unobserved_s;
+  if (slip_.free()) result.held_by_known = IsHeldBy(aligned.known);
+  result.registered_o = in_object(uncertainty.of_observed);
+  result.reported += RotatedCovariance(first_view_.covariance_o(), R_co);
+  const Mat6 free_turn = result.twist_unobserved - RotatedCovariance(result.free_shift_o, R_co);
+  const Mat6 slid_o = slip_.Covariance(result.free_shift_o, unobserved_s);
+  const Mat6 may_have_moved =
+      unobserved_s * unobserved_s * free_turn + RotatedCovariance(slid_o, R_co);
+  if (!may_have_moved.isZero(0.0F)) result.reported += OnItsArc(may_have_moved);
   result.white.diagonal().array() += kDefinedPoseVariance;
   result.reported.diagonal().array() += kDefinedPoseVariance;
   // Rotations make displacements of the origin, with the rounding errors of what they are made of.

@@ -303,5 +303,44 @@ TEST_F(EdgeMapTest, PointThatIsNotFinite_MovesNoEdge) {
   EXPECT_EQ(Nearest(PointAt(0.0F, 0.0F), nan), nullptr);
 }
 
+TEST_F(EdgeMapTest, EdgesFoundWhileTheObjectMayHaveSlid_AreNotKnown_AndCanBeForgotten) {
+  Insert(PointAt(0.0F));
+  map_.SetShiftFree(true);
+  Insert(PointAt(0.1F));
+  map_.SetShiftFree(true);
+  Insert(PointAt(0.2F));
+  EXPECT_EQ(map_.size(), 3);
+  ASSERT_EQ(map_.known().size(), 1U);
+  EXPECT_NEAR(map_.known()[0].position_m.x(), 0.0F, 1e-6F);
+  map_.ForgetFoundShiftFree();
+  EXPECT_EQ(map_.size(), 1);
+}
+
+TEST_F(EdgeMapTest, EdgesFoundWhileTheObjectMayHaveSlid_AreKnownOnceItHasNot) {
+  map_.SetShiftFree(true);
+  Insert(PointAt(0.1F));
+  EXPECT_EQ(map_.known().size(), 0U);
+  map_.SetShiftFree(false);
+  EXPECT_EQ(map_.known().size(), 1U);
+  map_.ForgetFoundShiftFree();
+  EXPECT_EQ(map_.size(), 1);
+}
+
+TEST_F(EdgeMapTest, FullMap_KeepsWhatWasKnownWhileTheObjectMayHaveSlid) {
+  for (int i = 0; i < kCapacity - 1; ++i) Insert(PointAt(0.1F * static_cast<float>(i)));
+  map_.SetShiftFree(true);
+  for (int i = 0; i < 3; ++i) {
+    ++frame_;
+    Insert(PointAt(1.0F + 0.1F * static_cast<float>(i)));
+  }
+  ASSERT_EQ(map_.known().size(), static_cast<std::size_t>(kCapacity - 1));
+  for (int i = 0; i < kCapacity - 1; ++i) {
+    EXPECT_NEAR(map_.known()[static_cast<std::size_t>(i)].position_m.x(),
+                0.1F * static_cast<float>(i), 1e-6F);
+  }
+  // The newest of the others is there.
+  EXPECT_NEAR(map_.all().back().position_m.x(), 1.2F, 1e-6F);
+}
+
 }  // namespace
 }  // namespace disflow::testing

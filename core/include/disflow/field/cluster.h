@@ -25,7 +25,8 @@ struct Cluster {
   /// DistanceField::Witness().
   std::int8_t evidence;
   bool confirmed;            ///< Some of it was observed again, see ForEachUnconfirmed().
-  bool turn_free;            ///< Found while nothing told the turn about some axis.
+  bool turn_free : 1;        ///< Found while nothing told the turn about some axis.
+  bool shift_free : 1;       ///< Found while the object may have slid, see PlaceSlip.
   float dirtiness;           ///< What changed since the last training, in observations.
   std::uint32_t last_frame;  ///< When it was last observed.
   /// How many pieces of surface lie between this one and the first view, each registered to the one
@@ -50,6 +51,7 @@ struct Cluster {
     evidence = 0;
     confirmed = false;
     turn_free = false;
+    shift_free = false;
     dirtiness = 0.0F;
     last_frame = 0;
     generation = 0.0F;

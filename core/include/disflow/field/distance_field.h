@@ -54,6 +54,7 @@ class DistanceField {
     generation_ = 0.0F;
     piece_variance_m2_ = 0.0F;
     turn_free_ = false;
+    shift_free_ = false;
     store_.Start(config_.cell_size_m, config_.crease_cos);
     has_bounds_ = false;
   }
@@ -63,6 +64,12 @@ class DistanceField {
   /// Whether surface that is found from now on is found while nothing tells the turn about some
   /// axis: it may belong elsewhere about that axis.
   void SetTurnFree(bool turn_free) noexcept { turn_free_ = turn_free; }
+  /// Whether it is found while the object may have slid: it may belong elsewhere.
+  void SetShiftFree(bool shift_free) noexcept { shift_free_ = shift_free; }
+  /// What was found so is where it belongs.
+  void KeepFoundShiftFree() noexcept {
+    store_.ForEach([this](Handle handle, const auto&) { store_[handle].shift_free = false; });
+  }
   /// How far off a piece of surface is built into the model beside the noise of its samples and of
   /// its pose. Of all surface: as far as is known by now.
   void SetPieceVariance(float variance_m2) noexcept { piece_variance_m2_ = variance_m2; }
@@ -257,6 +264,7 @@ class DistanceField {
   float generation_ = 0.0F;
   float piece_variance_m2_ = 0.0F;
   bool turn_free_ = false;
+  bool shift_free_ = false;
   Vec3 bounds_min_m_ = Vec3::Zero();
   Vec3 bounds_max_m_ = Vec3::Zero();
   bool has_bounds_ = false;

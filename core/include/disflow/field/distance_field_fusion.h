@@ -108,6 +108,7 @@ Fusion DistanceField<Limits>::Add(const SurfaceSample& observation, std::uint32_
   if (cluster.samples.empty()) {
     cluster.generation = generation_;
     cluster.turn_free = turn_free_;
+    cluster.shift_free = shift_free_;
   }
   const ModelSample sample{observation.position_m, observation.normal,
                            observation.fused_variance_m2, observation.normal_variance, 1};

@@ -71,6 +71,7 @@ class EdgeMap {
   void Start() noexcept {
     edges_.clear();
     rounding_ = {};
+    shift_free_ = false;
   }
   [[nodiscard]] int size() const noexcept { return edges_.size(); }
 
@@ -80,6 +81,18 @@ class EdgeMap {
   [[nodiscard]] std::span<const Edge> all() const noexcept {
     return {edges_.begin(), edges_.end()};
   }
+
+  /// Those that were not found while the object may have slid, see PlaceSlip.
+  [[nodiscard]] std::span<const Edge> known() const noexcept {
+    return all().first(static_cast<std::size_t>(known_count()));
+  }
+  /// Whether edges that are found from now on are found so. The known ones do not make room for
+  /// them. False: what was found so is where it belongs.
+  void SetShiftFree(bool shift_free) noexcept {
+    if (shift_free && !shift_free_) known_count_ = edges_.size();
+    shift_free_ = shift_free;
+  }
+  void ForgetFoundShiftFree() noexcept { edges_.truncate(known_count()); }
 
   /// Fuses a steady point into the edge near it, or stores it, if the map is full for another.
   /// @param frame Number of the frame, not decreasing.
@@ -93,16 +106,23 @@ class EdgeMap {
     }
     const Edge edge = MakeModelEdge(point, frame);
     if (edges_.push_back(edge)) return;
-    const int forgettable = FindForgettable(all(), frame);
+    const int kept = shift_free_ ? known_count_ : 0;
+    const int forgettable = FindForgettable(all().subspan(static_cast<std::size_t>(kept)), frame);
     if (forgettable < 0) {
       ++counters.edges_refused;
     } else {
-      edges_[forgettable] = edge;
+      edges_[kept + forgettable] = edge;
     }
   }
 
  private:
+  [[nodiscard]] int known_count() const noexcept {
+    return shift_free_ ? known_count_ : edges_.size();
+  }
+
   FixedVector<Edge, kMaxEdges> edges_;
+  bool shift_free_ = false;
+  int known_count_ = 0;  ///< How many there were when it began.
   EdgeRounding rounding_;
 };
 

@@ -33,14 +33,15 @@ class EdgeResiduals {
   /// Keeps references to its arguments.
   /// @param edges Camera frame.
   /// @param index Memory for that of the model.
+  /// @param known_only Without what was found while the object may have slid.
   EdgeResiduals(const Model& model, const Edges& edges, const RegistrationConfig& config,
-                Index& index) noexcept
+                Index& index, bool known_only = false) noexcept
       : model_(model),
         edges_(edges),
         config_(config),
         index_(index),
         radius_m_(known_rounding().radius_m) {
-    index_.Build(model.all());
+    index_.Build(known_only ? model.known() : model.all());
   }
 
   [[nodiscard]] int size() const noexcept { return edges_.size(); }

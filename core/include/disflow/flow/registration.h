@@ -48,6 +48,8 @@ class Registration {
     if (wanted > 0) center_c_ /= static_cast<float>(wanted);
     edges_ = &edges;
   }
+  /// Whether edges that were found while the object may have slid are left out from now on.
+  void UseKnownEdges(bool known_only) noexcept { known_edges_ = known_only; }
   /// The points to register.
   [[nodiscard]] const Samples& samples() const noexcept { return samples_; }
   /// The points' centroid, camera frame.
@@ -74,6 +76,13 @@ class Registration {
                              const RegistrationConfig& config, const PoseObjectFromCamera& T_start,
                              const PoseObjectFromCamera& T_predicted, RobustScale scale,
                              int iterations) noexcept;
+
+  /// What the pose that Align() found last is told by what was not found while the object may have
+  /// slid. Forgets what the points were matched with.
+  [[nodiscard]] RegistrationInformation KnownInformation(const Field& field,
+                                                         const Model& model_edges,
+                                                         const RegistrationConfig& config,
+                                                         Result result) noexcept;
 
  private:
   static constexpr int kMinInliers = 12;  ///< Twice the unknowns.
@@ -106,6 +115,7 @@ class Registration {
                                           Result& result) const noexcept;
 
   Samples samples_;
+  bool known_edges_ = false;
   typename SurfaceResiduals<Limits>::Known known_;
   typename EdgeResiduals<Limits>::Index edge_index_;
   Vec3 center_c_ = Vec3::Zero();

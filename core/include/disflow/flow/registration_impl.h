@@ -42,7 +42,7 @@ float Registration<Limits>::ScoreOfAligned(const Field& field, const Registratio
 template <class Limits>
 float Registration<Limits>::EdgeScore(const Model& model_edges, const RegistrationConfig& config,
                                       const PoseObjectFromCamera& T_oc) noexcept {
-  EdgeResiduals<Limits> edges(model_edges, *edges_, config, edge_index_);
+  EdgeResiduals<Limits> edges(model_edges, *edges_, config, edge_index_, known_edges_);
   float sum = 0.0F;
   int expected = 0;
   for (int i = 0; i < edges.size(); ++i) {
@@ -61,7 +61,7 @@ RegistrationResult Registration<Limits>::Align(const Field& field, const Model& 
                                                const PoseObjectFromCamera& T_predicted,
                                                RobustScale scale, int iterations) noexcept {
   SurfaceResiduals<Limits> surfaces(field, samples_, config, known_);
-  EdgeResiduals<Limits> edges(model_edges, *edges_, config, edge_index_);
+  EdgeResiduals<Limits> edges(model_edges, *edges_, config, edge_index_, known_edges_);
   Result result;
   result.T_oc = T_start;
   result.points = samples_.size();
@@ -99,6 +99,28 @@ RegistrationResult Registration<Limits>::Align(const Field& field, const Model& 
     result.information.of_edge_errors = OfEdgeErrors(edges, config, scale, result);
   }
   return result;
+}
+
+template <class Limits>
+RegistrationInformation Registration<Limits>::KnownInformation(const Field& field,
+                                                               const Model& model_edges,
+                                                               const RegistrationConfig& config,
+                                                               Result result) noexcept {
+  for (auto& correspondence : known_) {
+    FieldMatch& match = correspondence.match;
+    match.found = match.found && !field.store()[match.cluster].shift_free;
+  }
+  SurfaceResiduals<Limits> surfaces(field, samples_, config, known_);
+  EdgeResiduals<Limits> edges(model_edges, *edges_, config, edge_index_, true);
+  edges.SetRadius(result.rounding.radius_m);
+  const RobustScale settled;
+  // Finds what the edges are matched with.
+  (void)AddResiduals(edges, result.T_oc, result.center_m, {config, settled.edges_m},
+                     Matching::kSearch);
+  result.information.total =
+      Linearise(surfaces, edges, config, settled, Matching::kLinear, result).WithoutRadius().h;
+  result.information.of_edge_errors = OfEdgeErrors(edges, config, settled, result);
+  return result.information;
 }
 
 /// What the edges of the last step tell by errors of their directions, and of how far they are.

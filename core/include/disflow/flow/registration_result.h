@@ -39,7 +39,10 @@ struct RegistrationResult {
   int unmatched = 0;
   int truncated = 0;
   int normal_mismatch = 0;
-  bool turned = false;  ///< About an axis about which nothing held it, see TurnSearch.
+  /// The same without what was found while the object may have slid, where it may.
+  RegistrationInformation known;
+  bool shifted = false;  ///< To where what nothing held was found, see ShiftSearch.
+  bool turned = false;   ///< About an axis about which nothing held it, see TurnSearch.
 };
 
 /// How far a distance from the model is what is to be expected, 0..1.
