@@ -8,11 +8,11 @@ void FirstView::Learn(const Mat6& registered_o, const PoseNoise& noise,
   // In which samples of the model average most of their noise away, and poses show theirs.
   constexpr int kFrames = 15;
   if (frames_ == kFrames) return;
-  if (frames_++ == 0) {
-    // By what a view that is as good as the first is off against it.
-    registered_o_ = registered_o;
-    outline_m_ = outline_m;
-  }
+  // By what a view that is as good as the first is off against it.
+  if (frames_ == 0) registered_o_ = registered_o;
+  ++frames_;
+  // One frame tells it to a factor of two.
+  outline_m_ += (outline_m - outline_m_) / static_cast<float>(frames_);
   noise_ = noise.Of(Mat6::Identity()).diagonal().cwiseSqrt();
 }
 

@@ -24,8 +24,12 @@ TEST(FirstView, WhatItLeftUncertain_StaysHoweverSharpLaterViewsAre) {
   FirstView first_view;
   const PoseNoise noise;
   const Mat6 second = Stated(2e-4F, 1e-3F);
+  constexpr int kFirstFrames = 15;
   first_view.Learn(second, noise, kOutline_m);
-  for (int i = 0; i < 100; ++i) first_view.Learn(Stated(1e-5F, 5e-5F), noise, 0.1F * kOutline_m);
+  for (int i = 1; i < 100; ++i) {
+    const float nearer = i < kFirstFrames ? 1.0F : 0.1F;
+    first_view.Learn(Stated(1e-5F, 5e-5F), noise, nearer * kOutline_m);
+  }
   const Mat6& left = first_view.covariance_o();
   const float outline_m2 = kOutline_m * kOutline_m;
   // Along the first view's rays the depth tells, across them the outline.
