@@ -3,8 +3,7 @@
 
 namespace disflow {
 
-void FirstView::Learn(const Mat6& registered_o, const PoseNoise& noise,
-                      float outline_m) noexcept {
+void FirstView::Learn(const Mat6& registered_o, const PoseNoise& noise, float outline_m) noexcept {
   // In which samples of the model average most of their noise away, and poses show theirs.
   constexpr int kFrames = 15;
   if (frames_ == kFrames) return;

@@ -103,7 +103,8 @@ TEST(ShiftSearch, EndThatWasLearntSinceItSlid_TellsNothing) {
 
 // Neither end is in view.
 TEST(ShiftSearch, SidesAlone_TellNothing) {
-  const auto model = MakeModel(Seen(Beam(), [](const Vec3& x_m) { return std::abs(x_m.x()) < 0.09F; }));
+  const auto model =
+      MakeModel(Seen(Beam(), [](const Vec3& x_m) { return std::abs(x_m.x()) < 0.09F; }));
   constexpr float kOff_m = 0.03F;
   const SeenFromItsEnd view;
   EXPECT_FLOAT_EQ(view.LeftAfterASearch_m(*model, kOff_m), kOff_m);

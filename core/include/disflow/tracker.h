@@ -120,7 +120,6 @@ class Tracker {
     bool unheld = false;   ///< Along one that it does not tell of the object may lie elsewhere.
     Mat6 free_shift_o = Mat6::Zero();  ///< Along what, as far as in a second, object axes.
     float unobserved_s = 0.0F;
-    bool held_by_known = false;        ///< In its place, by what was known before it may have slid.
     Mat6 registered_o = Mat6::Zero();  ///< Of the registration, of the origin, object axes.
     float outline_m = 0.0F;            ///< How far outlines are off, at the object.
   };

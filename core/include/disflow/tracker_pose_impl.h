@@ -49,8 +49,8 @@ typename Tracker<Limits>::Aligned Tracker<Limits>::Register(const DepthFrame& fr
       aligned = FindTurn(frame, registration, aligned, start.robust_scale, estimate.score);
     }
     if (slip_.free()) {
-      aligned.known =
-          registration.KnownInformation(field_, model_edges_, config_.registration, aligned);
+      aligned.held_by_known = IsHeldBy(
+          registration.KnownInformation(field_, model_edges_, config_.registration, aligned));
     }
   }
   estimate.hypotheses = static_cast<std::uint8_t>(start.tried);
@@ -177,7 +177,7 @@ void Tracker<Limits>::Follow(StampNs stamp_ns, const Aligned& aligned,
   free_turn_o_ = covariance.free_turn_o;
   unheld_ = covariance.unheld;
   if (slip_.Learn(stamp_ns, unheld_, covariance.free_shift_o, covariance.unobserved_s,
-                  covariance.held_by_known)) {
+                  aligned.held_by_known)) {
     field_.KeepFoundShiftFree();
   }
   field_.SetShiftFree(slip_.free());
@@ -326,7 +326,6 @@ typename Tracker<Limits>::PoseCovariance Tracker<Limits>::CovarianceOf(
   result.unheld = uncertainty.MayShift();
   result.free_shift_o = result.unobserved_o - result.free_turn_o;
   result.unobserved_s = unobserved_s;
-  if (slip_.free()) result.held_by_known = IsHeldBy(aligned.known);
   result.registered_o = in_object(uncertainty.of_observed);
   result.reported += RotatedCovariance(first_view_.covariance_o(), R_co);
   const Mat6 free_turn = result.twist_unobserved - RotatedCovariance(result.free_shift_o, R_co);

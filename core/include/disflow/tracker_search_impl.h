@@ -11,8 +11,8 @@
 #include "disflow/tracker.h"
 
 /// @file
-/// Definitions of those members of Tracker that look for an object elsewhere than registration finds
-/// it; see tracker_impl.h.
+/// Definitions of those members of Tracker that look for an object elsewhere than registration
+/// finds it; see tracker_impl.h.
 
 namespace disflow {
 
@@ -87,9 +87,8 @@ typename Tracker<Limits>::Aligned Tracker<Limits>::FindShift(Registration<Limits
                              edges_, aligned.T_oc, NextFreeShift());
   if (!search.Find()) return aligned;
   registration.UseKnownEdges(true);
-  Aligned shifted =
-      registration.Align(field_, model_edges_, config_.registration, search.T_found(),
-                         search.T_found(), scale, config_.registration.iterations);
+  Aligned shifted = registration.Align(field_, model_edges_, config_.registration, search.T_found(),
+                                       search.T_found(), scale, config_.registration.iterations);
   registration.UseKnownEdges(false);
   if (!shifted.solved || !search.Confirms(shifted.T_oc)) return aligned;
   shifted.shifted = true;

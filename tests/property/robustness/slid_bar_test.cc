@@ -26,7 +26,8 @@ constexpr double kHalfLength_m = 0.3;
 constexpr double kNoise_m = 3e-4;
 
 /// A bar that reaches out of the image and moves along itself: nothing but its ends tells where it
-/// is. It turns a little, since an outline that is the same to the pixel in every image stands still.
+/// is. It turns a little, since an outline that is the same to the pixel in every image stands
+/// still.
 class Bar {
  public:
   /// @param place_m Of its middle at a time, to the right.

@@ -24,7 +24,7 @@ class FirstView {
   [[nodiscard]] Mat6 covariance_o() const noexcept;
 
  private:
-  int frames_ = 0;  ///< That were followed, up to what is looked at.
+  int frames_ = 0;                    ///< That were followed, up to what is looked at.
   Mat6 registered_o_ = Mat6::Zero();  ///< Of the second view against the first.
   Vec6 noise_ = Vec6::Zero();         ///< How much of its standard deviations poses show.
   float outline_m_ = 0.0F;

@@ -17,10 +17,10 @@ struct FreeShift {
   [[nodiscard]] Vec3 Place(int i, int places) const noexcept;
 };
 
-/// How far an object may have slid while nothing held it in its place: a long box whose ends are out
-/// of the image, a face without outlines. What comes into view then is built into the model at a
-/// place that may be wrong, and holds the pose there. So the uncertainty stays until what was known
-/// before holds it again.
+/// How far an object may have slid while nothing held it in its place: a long box whose ends are
+/// out of the image, a face without outlines. What comes into view then is built into the model at
+/// a place that may be wrong, and holds the pose there. So the uncertainty stays until what was
+/// known before holds it again.
 class PlaceSlip {
  public:
   void Start(StampNs stamp_ns) noexcept;
@@ -57,12 +57,12 @@ class PlaceSlip {
   void End() noexcept;
 
   bool free_ = false;
-  StampNs held_ns_ = 0;  ///< When something last held it.
+  StampNs held_ns_ = 0;               ///< When something last held it.
   Mat6 covariance_o_ = Mat6::Zero();  ///< Of the slides that have come to an end.
   Mat6 free_o_ = Mat6::Zero();        ///< Of the slide that goes on, the mean of its frames.
   int sliding_frames_ = 0;
   float slid_s_ = 0.0F;
-  int known_frames_ = 0;           ///< In a row.
+  int known_frames_ = 0;  ///< In a row.
   int part_ = 0;
 };
 

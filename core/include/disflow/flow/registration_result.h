@@ -39,8 +39,8 @@ struct RegistrationResult {
   int unmatched = 0;
   int truncated = 0;
   int normal_mismatch = 0;
-  /// The same without what was found while the object may have slid, where it may.
-  RegistrationInformation known;
+  /// In its place, by what was not found while the object may have slid.
+  bool held_by_known = false;
   bool shifted = false;  ///< To where what nothing held was found, see ShiftSearch.
   bool turned = false;   ///< About an axis about which nothing held it, see TurnSearch.
 };

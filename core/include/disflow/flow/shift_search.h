@@ -68,8 +68,8 @@ class ShiftSearch {
   }
 
  private:
-  static constexpr int kMost = 60;    ///< Samples, and edges.
-  static constexpr int kFewest = 12;  ///< As registration wants.
+  static constexpr int kMost = 60;         ///< Samples, and edges.
+  static constexpr int kFewest = 12;       ///< As registration wants.
   static constexpr float kTelling = 0.5F;  ///< Cosine: within 60 degrees of the direction.
 
   /// Takes those that tell, at most kMost of them, evenly spread.
