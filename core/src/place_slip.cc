@@ -33,7 +33,7 @@ Mat6 PlaceSlip::Covariance(const Mat6& free_o, float slid_s) const noexcept {
   return covariance_o_ + slid_s * slid_s / (frames + 1.0F) * (frames * free_o_ + free_o);
 }
 
-bool PlaceSlip::Learn(StampNs stamp_ns, bool unheld, const Mat6& free_o, float slid_s,
+void PlaceSlip::Learn(StampNs stamp_ns, bool unheld, const Mat6& free_o, float slid_s,
                       bool by_known) noexcept {
   // In which an object may move by several times what an edge is found within.
   constexpr float kForgotten_s = 0.1F;
@@ -52,23 +52,18 @@ bool PlaceSlip::Learn(StampNs stamp_ns, bool unheld, const Mat6& free_o, float s
     sliding_frames_ = 0;
   }
   known_frames_ = free_ && by_known ? known_frames_ + 1 : 0;
-  if (known_frames_ < kFramesUntilKnown) return false;
-  End();
-  return true;
+  if (known_frames_ == kFramesUntilKnown) End();
 }
 
 FreeShift PlaceSlip::Next(const Vec3& center_m, float reach_m, float step_m, int places) noexcept {
-  const float slid_s2 = sliding_frames_ > 0 ? slid_s_ * slid_s_ : 0.0F;
-  const Mat6 at_center =
-      CovarianceAtPoint(Mat6(covariance_o_ + slid_s2 * free_o_), Mat3::Identity(), center_m);
-  const Mat3 positions = at_center.topLeftCorner<3, 3>();
-  const Mat3 axes = PrincipalAxes(positions);
-  int longest = 0;
-  const float variance_m2 = (axes.transpose() * positions * axes).diagonal().maxCoeff(&longest);
+  Mat6 slid_o = covariance_o_;
+  if (sliding_frames_ > 0) slid_o += slid_s_ * slid_s_ * free_o_;
+  const Mat6 at_center = CovarianceAtPoint(slid_o, Mat3::Identity(), center_m);
+  const LongestAxis slide(at_center.topLeftCorner<3, 3>());
   FreeShift shift;
-  shift.direction = axes.col(longest);
+  shift.direction = slide.direction;
   shift.step_m = step_m;
-  const float farthest_m = std::min(reach_m, std::sqrt(std::max(variance_m2, 0.0F)));
+  const float farthest_m = std::min(reach_m, std::sqrt(std::max(slide.variance, 0.0F)));
   const int parts = 1 + static_cast<int>(2.0F * farthest_m / step_m) / places;
   shift.part = part_++ % parts;
   return shift;

@@ -49,6 +49,13 @@ Mat3 PrincipalAxes(const Mat3& covariance) noexcept {
   return SymmetricEigen6(padded).vectors.topLeftCorner<3, 3>();
 }
 
+LongestAxis::LongestAxis(const Mat3& covariance) noexcept {
+  const Mat3 axes = PrincipalAxes(covariance);
+  int longest = 0;
+  variance = Vec3((axes.transpose() * covariance * axes).diagonal()).maxCoeff(&longest);
+  direction = axes.col(longest);
+}
+
 PoseObjectFromCamera TurnedOver(const PoseObjectFromCamera& T_oc, const Vec3& axis,
                                 const Vec3& center_m) noexcept {
   const Mat3 half_turn = 2.0F * axis * axis.transpose() - Mat3::Identity();

@@ -132,13 +132,10 @@ float RememberGradientVariance(float before_rad2, float by_frame_rad2) noexcept 
 }
 
 Mat6 OnItsArc(const Mat6& covariance) noexcept {
-  const Mat3 axes = PrincipalAxes(Mat3(covariance.bottomRightCorner<3, 3>()));
-  const Vec3 variances =
-      (axes.transpose() * covariance.bottomRightCorner<3, 3>() * axes).diagonal();
-  int largest = 0;
-  const float variance_rad2 = variances.maxCoeff(&largest);
+  const LongestAxis longest(covariance.bottomRightCorner<3, 3>());
+  const Vec3& axis = longest.direction;
+  const float variance_rad2 = longest.variance;
   if (!(variance_rad2 > 0.0F)) return covariance;
-  const Vec3 axis = axes.col(largest);
   const Vec6 with_angle = covariance.rightCols<3>() * axis;  // E[(displacement, theta) angle]
   const Mat6 beside = covariance - with_angle * with_angle.transpose() / variance_rad2;
 

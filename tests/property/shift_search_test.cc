@@ -6,8 +6,7 @@
 #include <cmath>
 #include <memory>
 
-#include "disflow/flow/registration_impl.h"
-#include "model_builder.h"
+#include "model_view.h"
 
 namespace disflow::testing {
 namespace {
@@ -24,19 +23,8 @@ class SeenFromItsEnd {
  public:
   SeenFromItsEnd()
       : T_oc_(PoseCameraFromObject(ExpSo3(Vec3(0.3F, 0.7F, 0.2F)), Vec3(0.02F, -0.01F, 0.5F))
-                  .Inverse()) {
-    std::mt19937 random(5);
-    const Shape beam = Beam();
-    while (!samples_.full()) {
-      const SurfacePoint point = beam.random_point(random);
-      const Vec3 to_eye = T_oc_.translation() - point.position_m;
-      if (point.normal.dot(to_eye) < 0.3F * to_eye.norm()) continue;
-      SurfaceSample sample = Observe(point, Observing{}, random);
-      sample.position_m = T_oc_.Inverse() * sample.position_m;
-      sample.normal = T_oc_.rotation().transpose() * sample.normal;
-      (void)samples_.push_back(sample);
-    }
-  }
+                  .Inverse()),
+        samples_(SamplesFacing(Beam(), T_oc_)) {}
 
   /// How far along the beam the pose is off after all parts of a search.
   [[nodiscard]] float LeftAfterASearch_m(const EdgeField& model, float off_m) const {
@@ -46,7 +34,7 @@ class SeenFromItsEnd {
       Search search(model, no_model_edges_, config_, samples_, no_edges_, T_found,
                     {Vec3::UnitX(), kStep_m, part});
       if (!search.Find()) continue;
-      const PoseObjectFromCamera T_registered = Registered(model, search.T_found());
+      const PoseObjectFromCamera T_registered = Registered(samples_, model, search.T_found());
       if (!search.Confirms(T_registered)) continue;
       T_found = T_registered;
       break;  // what was found is followed
@@ -55,16 +43,6 @@ class SeenFromItsEnd {
   }
 
  private:
-  [[nodiscard]] PoseObjectFromCamera Registered(const EdgeField& model,
-                                                const PoseObjectFromCamera& T_start) const {
-    const auto registration = std::make_unique<Registration<profiles::Edge>>();
-    registration->SetObservations(samples_, no_edges_);
-    return registration
-        ->Align(model, no_model_edges_, config_, T_start, T_start, {0.003F, 0.003F},
-                config_.iterations)
-        .T_oc;
-  }
-
   RegistrationConfig config_;
   PoseObjectFromCamera T_oc_;
   Search::Samples samples_;
@@ -97,7 +75,7 @@ TEST(ShiftSearch, EndThatWasLearntSinceItSlid_TellsNothing) {
   constexpr float kOff_m = 0.04F;
   const SeenFromItsEnd view;
   EXPECT_FLOAT_EQ(view.LeftAfterASearch_m(*model, kOff_m), kOff_m);
-  model->KeepFoundShiftFree();
+  model->SetShiftFree(false);
   EXPECT_NEAR(view.LeftAfterASearch_m(*model, kOff_m), 0.0F, 1e-3F);
 }
 

@@ -7,8 +7,7 @@
 #include <memory>
 #include <numbers>
 
-#include "disflow/flow/registration_impl.h"
-#include "model_builder.h"
+#include "model_view.h"
 
 namespace disflow::testing {
 namespace {
@@ -51,33 +50,12 @@ class SeenFromTheSide {
       : T_oc_(TurnedAbout(
             axis_, turn_rad,
             PoseCameraFromObject(ExpSo3(Vec3(1.3F, 0.0F, 0.0F)), Vec3(0.02F, -0.01F, 0.5F))
-                .Inverse())) {
-    std::mt19937 random(5);
-    while (!samples_.full()) {
-      const SurfacePoint point = shape.random_point(random);
-      const Vec3 to_eye = T_oc_.translation() - point.position_m;
-      if (point.normal.dot(to_eye) < 0.3F * to_eye.norm()) continue;
-      SurfaceSample sample = Observe(point, Observing{}, random);
-      sample.position_m = T_oc_.Inverse() * sample.position_m;
-      sample.normal = T_oc_.rotation().transpose() * sample.normal;
-      (void)samples_.push_back(sample);
-    }
-  }
+                .Inverse())),
+        samples_(SamplesFacing(shape, T_oc_)) {}
 
   /// The true pose, turned by an angle.
   [[nodiscard]] PoseObjectFromCamera Off(float angle_rad) const {
     return TurnedAbout(axis_, angle_rad, T_oc_);
-  }
-  [[nodiscard]] PoseObjectFromCamera Registered(const EdgeField& model,
-                                                const PoseObjectFromCamera& T_start) const {
-    const auto registration = std::make_unique<Registration<profiles::Edge>>();
-    const Registration<profiles::Edge>::Model no_model_edges{};
-    const Registration<profiles::Edge>::Edges no_edges{};
-    registration->SetObservations(samples_, no_edges);
-    return registration
-        ->Align(model, no_model_edges, config_, T_start, T_start, {0.003F, 0.003F},
-                config_.iterations)
-        .T_oc;
   }
   [[nodiscard]] Search Look(const EdgeField& model, const PoseObjectFromCamera& T_oc,
                             int part) const {
@@ -95,7 +73,7 @@ class SeenFromTheSide {
     for (int part = 0; part < Search::kParts; ++part) {
       Search search = Look(model, T_found, part);
       if (!search.Find()) continue;
-      const PoseObjectFromCamera T_registered = Registered(model, search.T_found());
+      const PoseObjectFromCamera T_registered = Registered(samples_, model, search.T_found());
       if (search.Confirms(T_registered)) T_found = T_registered;
     }
     return TurnBetween(T_oc_.rotation(), T_found.rotation()).norm();

@@ -176,10 +176,8 @@ void Tracker<Limits>::Follow(StampNs stamp_ns, const Aligned& aligned,
   unobserved_o_ = covariance.unobserved_o;
   free_turn_o_ = covariance.free_turn_o;
   unheld_ = covariance.unheld;
-  if (slip_.Learn(stamp_ns, unheld_, covariance.free_shift_o, covariance.unobserved_s,
-                  aligned.held_by_known)) {
-    field_.KeepFoundShiftFree();
-  }
+  slip_.Learn(stamp_ns, unheld_, covariance.free_shift_o, covariance.unobserved_s,
+              aligned.held_by_known);
   field_.SetShiftFree(slip_.free());
   model_edges_.SetShiftFree(slip_.free());
   first_view_.Learn(covariance.registered_o, pose_noise_, covariance.outline_m);

@@ -64,11 +64,13 @@ class DistanceField {
   /// Whether surface that is found from now on is found while nothing tells the turn about some
   /// axis: it may belong elsewhere about that axis.
   void SetTurnFree(bool turn_free) noexcept { turn_free_ = turn_free; }
-  /// Whether it is found while the object may have slid: it may belong elsewhere.
-  void SetShiftFree(bool shift_free) noexcept { shift_free_ = shift_free; }
-  /// What was found so is where it belongs.
-  void KeepFoundShiftFree() noexcept {
-    store_.ForEach([this](Handle handle, const auto&) { store_[handle].shift_free = false; });
+  /// Whether it is found while the object may have slid: it may belong elsewhere. False: what was
+  /// found so is where it belongs.
+  void SetShiftFree(bool shift_free) noexcept {
+    if (shift_free_ && !shift_free) {
+      store_.ForEach([this](Handle handle, const auto&) { store_[handle].shift_free = false; });
+    }
+    shift_free_ = shift_free;
   }
   /// How far off a piece of surface is built into the model beside the noise of its samples and of
   /// its pose. Of all surface: as far as is known by now.

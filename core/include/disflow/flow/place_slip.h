@@ -31,9 +31,8 @@ class PlaceSlip {
   /// frame says of that direction in a second, object axes.
   /// @param slid_s For how long nothing has held it.
   /// @param by_known What was known before holds it.
-  /// @return Whether the place is known again.
-  [[nodiscard]] bool Learn(StampNs stamp_ns, bool unheld, const Mat6& free_o, float slid_s,
-                           bool by_known) noexcept;
+  void Learn(StampNs stamp_ns, bool unheld, const Mat6& free_o, float slid_s,
+             bool by_known) noexcept;
   /// The object was found elsewhere, which frames that follow have to confirm; if it is not held
   /// there it is looked for nearby first.
   void Found() noexcept { part_ = 0; }

@@ -51,6 +51,14 @@ inline constexpr int kGlobalRotations = 72;
 /// The principal axes of a spread of points, as columns.
 [[nodiscard]] Mat3 PrincipalAxes(const Mat3& covariance) noexcept;
 
+/// The axis along which something is spread farthest, and its variance there.
+struct LongestAxis {
+  Vec3 direction;
+  float variance = 0.0F;
+
+  explicit LongestAxis(const Mat3& covariance) noexcept;
+};
+
 /// The pose of an object that has been turned over.
 /// @param axis Unit vector through `center_m`, object frame.
 [[nodiscard]] PoseObjectFromCamera TurnedOver(const PoseObjectFromCamera& T_oc, const Vec3& axis,
