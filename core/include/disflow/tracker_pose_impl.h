@@ -325,7 +325,7 @@ typename Tracker<Limits>::PoseCovariance Tracker<Limits>::CovarianceOf(
   result.free_shift_o = result.unobserved_o - result.free_turn_o;
   result.unobserved_s = unobserved_s;
   result.registered_o = in_object(uncertainty.of_observed);
-  result.reported += RotatedCovariance(first_view_.covariance_o(), R_co);
+  result.reported += RotatedCovariance(first_view_.Covariance(R_co, result.outline_m), R_co);
   const Mat6 free_turn = result.twist_unobserved - RotatedCovariance(result.free_shift_o, R_co);
   const Mat6 slid_o = slip_.Covariance(result.free_shift_o, unobserved_s);
   const Mat6 may_have_moved =

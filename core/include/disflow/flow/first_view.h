@@ -20,8 +20,12 @@ class FirstView {
   /// @param outline_m How far off outlines are, at the object.
   void Learn(const Mat6& registered_o, const PoseNoise& noise, float outline_m) noexcept;
 
-  /// Of (origin's position, rotation), object axes.
-  [[nodiscard]] Mat6 covariance_o() const noexcept;
+  /// What it leaves uncertain of a pose. Outlines of two views are off alike, and leave nothing,
+  /// as far as the views are: by the cosine of the turn between them.
+  /// @param R_co From the object frame, whose axes are those of the first view's camera.
+  /// @param outline_m How far off outlines are in this view.
+  /// @return Of (origin's position, rotation), object axes.
+  [[nodiscard]] Mat6 Covariance(const Mat3& R_co, float outline_m) const noexcept;
 
  private:
   int frames_ = 0;                    ///< That were followed, up to what is looked at.
