@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <string>
+#include <vector>
 
 #include "disflow/config.h"
 #include "file_in_memory.h"
@@ -24,7 +25,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   try {
     Config config;
-    (void)apps::LoadRosParameters(file.path(), "/disflow", config);
+    (void)apps::LoadRosParameters(std::vector{file.path()}, "/disflow", config);
   } catch (const apps::Failure& failure) {
     fuzz::Require(std::string(failure.what()).find(file.path()) == 0);
   }

@@ -76,7 +76,6 @@ test("Without reset=yes nobody on the network is offered to reset the object", a
 });
 
 for (const [address, message] of [
-  ["dds:", /write dds:domain=0/],
   ["dds:domain=233", /not a number from 0 to 232/],
   ["dds:domain=0&domain=1", /given twice/],
   ["dds:speed=1", /unknown option speed/],

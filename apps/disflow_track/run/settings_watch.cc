@@ -30,7 +30,7 @@ std::string Join(const std::vector<std::string>& parts) {
 SettingsWatch::SettingsWatch(const CommandLine& command, const Options& options,
                              std::vector<ObjectChannel*> channels, Console& console)
     : command_(command), options_(options), channels_(std::move(channels)), console_(console) {
-  if (options.settings_file.empty()) return;
+  if (options.settings_files.empty()) return;
   hangup_ = std::make_unique<HangupSignal>();
   thread_ = posix::StartQuietThread([this] { Work(); });
 }
@@ -58,7 +58,7 @@ void SettingsWatch::ReadAgain() {
   std::vector<Config> now;
   for (ObjectChannel* const channel : channels_) now.push_back(channel->settings().Now());
   const RereadSettings reread = ReadSettingsAgain(command_, options_, now);
-  const std::string where = options_.settings_file + ": ";
+  const std::string where = Join(options_.settings_files) + ": ";
   std::size_t changes = 0;
   for (std::size_t i = 0; i < channels_.size(); ++i) changes += Adopt(i, now[i], reread.wanted[i]);
   if (changes == 0) console_.Say(where + "read again, no setting of the tracker changes");
@@ -72,6 +72,7 @@ std::size_t SettingsWatch::Adopt(std::size_t object, const Config& before, const
   const std::vector<std::string> changes =
       DescribeChanges(before, AdjustedAtRunTime(before, wanted));
   if (changes.empty()) return 0;
+  const std::string where = Join(options_.settings_files) + ": ";
   const std::string of = channels_.size() > 1 ? channels_[object]->name() + ": " : "";
   const ConfigIssue issue = channels_[object]->settings().Change([&](Config& config) {
     // What was changed elsewhere meanwhile stays.
@@ -79,13 +80,12 @@ std::size_t SettingsWatch::Adopt(std::size_t object, const Config& before, const
   });
   // Each by itself is right, but not beside those that cannot change.
   if (issue.field != nullptr) {
-    console_.Say(options_.settings_file + ": " + of + issue.field +
+    console_.Say(where + of + issue.field +
                      " does not fit the settings that stay as they are; nothing is changed",
                  Severity::kError);
     return 0;
   }
-  console_.Say(options_.settings_file + ": " + of + "read again, now " + Join(changes),
-               Severity::kNotice);
+  console_.Say(where + of + "read again, now " + Join(changes), Severity::kNotice);
   return changes.size();
 }
 

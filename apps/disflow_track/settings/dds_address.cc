@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cstdlib>
 
 #include "disflow/posix/shown_text.h"
 #include "program/exit_status.h"
@@ -39,29 +40,28 @@ class Reader {
   Reader(const std::string& uri, Side side) : uri_(uri), side_(side) {}
 
   [[nodiscard]] DdsAddress ReadLink() {
-    ReadItems("dds:domain=0");
+    ReadItems();
     static_cast<DdsNodeAddress&>(link_) = node_;
     return link_;
   }
   [[nodiscard]] DdsSensorAddress ReadSensor() {
-    constexpr const char* kExample = "dds:domain=0&depth=/camera/depth/image_rect_raw";
-    ReadItems(kExample);
+    ReadItems();
     if (sensor_.depth_topic.empty()) {
-      Refuse(std::string("depth= is missing; write ") + kExample);
+      Refuse("depth= is missing; write dds:domain=0&depth=/camera/depth/image_rect_raw");
     }
     static_cast<DdsNodeAddress&>(sensor_) = node_;
     return sensor_;
   }
 
  private:
-  void ReadItems(const char* example) {
+  void ReadItems() {
     std::string_view rest = std::string_view(uri_).substr(kScheme.size());
-    if (rest.empty()) Refuse(std::string("write ") + example);
     while (!rest.empty()) {
       const std::string_view item = rest.substr(0, rest.find('&'));
       rest.remove_prefix(std::min(item.size() + 1, rest.size()));
       ReadItem(item);
     }
+    if (!says_domain_) ReadDomainOfRos();
   }
 
   void ReadItem(std::string_view item) {
@@ -84,7 +84,17 @@ class Reader {
   }
   [[nodiscard]] bool IsOf(Side side) const noexcept { return side == Side::kBoth || side == side_; }
 
-  void ReadDomain(std::string_view value) { ReadNumber("domain", value, kMaxDomain, node_.domain); }
+  void ReadDomain(std::string_view value) {
+    ReadNumber("domain", value, kMaxDomain, node_.domain);
+    says_domain_ = true;
+  }
+  /// As all of ROS on this machine, where the address does not say.
+  void ReadDomainOfRos() {
+    constexpr const char* kVariable = "ROS_DOMAIN_ID";
+    const char* const value = std::getenv(kVariable);
+    if (value == nullptr || *value == '\0') return;
+    ReadNumber(kVariable, value, kMaxDomain, node_.domain);
+  }
   void ReadWait(std::string_view value) { ReadNumber("wait", value, kMaxWait_s, sensor_.wait_s); }
   void ReadNumber(const char* key, std::string_view value, std::uint32_t max,
                   std::uint32_t& number) {
@@ -205,6 +215,7 @@ class Reader {
   DdsAddress link_;
   DdsSensorAddress sensor_;
   std::array<bool, kOptions.size()> seen_{};
+  bool says_domain_ = false;
 };
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace disflow::apps {
 
 /// Who this program is to ROS 2, and on which network.
 struct DdsNodeAddress {
-  std::uint32_t domain = 0;        ///< As ROS_DOMAIN_ID.
+  std::uint32_t domain = 0;        ///< Where the address says nothing, ROS_DOMAIN_ID.
   std::string name = "disflow";    ///< Of the node; topics are NAMESPACE/NAME/OBJECT/….
   std::string node_namespace;      ///< "/robot1"; empty: none.
   std::string interface;           ///< Network interface or its address; empty: any.

@@ -90,9 +90,11 @@ void AddInput(CLI::App& app, Options& options, SettingSources& settings) {
          "Settings, TOML; --print-config writes one. Its section [run] may hold any of these "
          "options; the command line wins")
       ->type_name("FILE");
-  app.add_option("--params-file", settings.parameter_file,
-                 "The same as parameters of ROS 2, YAML, in place of --config (docs/ros2.md)")
-      ->type_name("FILE");
+  app.add_option("--params-file", settings.parameter_files,
+                 "The same as parameters of ROS 2, YAML, in place of --config (docs/ros2.md); of "
+                 "several the last word counts")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
   // Only for --help: TakeRosArguments() has taken it.
   app.add_flag_callback(
       "--ros-args", [] {},

@@ -45,7 +45,7 @@ struct Options {
   double mesh_resolution_m = 0.0;  ///< 0: by the model's own detail.
   std::string record;
   RotationOptions rotation;
-  std::string settings_file;           ///< Empty: none.
+  std::vector<std::string> settings_files;
   SettingsFile file;                   ///< What it says.
   Config config;                       ///< Defaults, then the file, then --set.
   std::vector<ObjectOptions> objects;  ///< At least one.

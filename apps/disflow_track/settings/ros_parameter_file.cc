@@ -122,20 +122,10 @@ YAML::Node ValueOf(const std::string& where, const std::string& text) {
   }
 }
 
-}  // namespace
-
-void ReadRosParameter(const std::string& assignment, SettingsFile& settings, Config& config) {
-  const std::string where = "-p " + posix::ShownText(assignment);
-  const std::size_t assign = assignment.find(":=");
-  YAML::Node map;
-  map[assignment.substr(0, assign)] = ValueOf(where, assignment.substr(assign + 2));
-  ParameterReader(where, settings, config).ReadMap("", map, 0);
-}
-
-SettingsFile LoadRosParameters(const std::string& file, const std::string& node_name,
-                               Config& config) {
+/// @return Whether it says anything of the node.
+bool ReadFile(const std::string& file, const std::string& node_name, SettingsFile& settings,
+              Config& config) {
   const std::string text = ReadSettingsText(file);
-  SettingsFile settings;
   ParameterReader reader(file, settings, config);
   bool is_meant = false;
   try {
@@ -155,9 +145,32 @@ SettingsFile LoadRosParameters(const std::string& file, const std::string& node_
   } catch (const YAML::Exception& error) {
     Refuse(YamlPlace(file, error.mark), error.msg);
   }
-  if (!is_meant) {
-    Refuse(file + ": ", "says nothing of the node " + node_name + "; head it with " + node_name +
-                            ": or /**:, and " + kParameters + ": below");
+  return is_meant;
+}
+
+}  // namespace
+
+void ReadRosParameter(const std::string& assignment, SettingsFile& settings, Config& config) {
+  const std::string where = "-p " + posix::ShownText(assignment);
+  const std::size_t assign = assignment.find(":=");
+  YAML::Node map;
+  map[assignment.substr(0, assign)] = ValueOf(where, assignment.substr(assign + 2));
+  ParameterReader(where, settings, config).ReadMap("", map, 0);
+}
+
+SettingsFile LoadRosParameters(std::span<const std::string> files, const std::string& node_name,
+                               Config& config) {
+  SettingsFile settings;
+  bool are_meant = false;
+  std::string all;
+  for (const std::string& file : files) {
+    const bool is_meant = ReadFile(file, node_name, settings, config);
+    are_meant = are_meant || is_meant;
+    all += (all.empty() ? "" : ", ") + file;
+  }
+  if (!are_meant) {
+    Refuse(all + ": ", "nothing is said of the node " + node_name + "; head it with " + node_name +
+                           ": or /**:, and " + kParameters + ": below");
   }
   return settings;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "disflow/config.h"
@@ -8,15 +9,16 @@
 
 namespace disflow::apps {
 
-/// Reads a file of parameters as ROS 2 has it (`--params-file`, `ros2 param dump`): for a node or
+/// Reads files of parameters as ROS 2 has them (`--params-file`, `ros2 param dump`): for a node or
 /// for all, `/**`, what stands under ros__parameters. SECTION.SETTING is one of all objects,
 /// OBJECT.SECTION.SETTING one of an object, run.OPTION an option of the command line.
+/// @param files What a later one says counts. At least one says something of the node.
 /// @param node_name With its namespace: "/robot1/disflow". Nodes of other names are passed over.
 /// @param config Gets the settings of all objects.
-/// @return What else it says.
+/// @return What else they say.
 /// @throws Failure kWrongUsage naming file, line, parameter and what is wrong with it.
-[[nodiscard]] SettingsFile LoadRosParameters(const std::string& file, const std::string& node_name,
-                                             Config& config);
+[[nodiscard]] SettingsFile LoadRosParameters(std::span<const std::string> files,
+                                             const std::string& node_name, Config& config);
 
 /// The same of one parameter.
 /// @param assignment NAME:=VALUE, the value as in such a file.

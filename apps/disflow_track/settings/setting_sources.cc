@@ -90,15 +90,16 @@ void ApplyNamed(const SettingSources& settings, const std::vector<NamedSetting>&
 void ReadSettings(CLI::App& app, SettingSources& settings, Options& options) {
   SettingsFile file;
   PutIntoAddresses(settings.ros, options);
-  const bool of_ros = !settings.parameter_file.empty();
+  const bool of_ros = !settings.parameter_files.empty();
   if (of_ros && !settings.file.empty())
     throw Failure(kWrongUsage, "settings come from --config or from --params-file, not both");
   if (of_ros || !settings.file.empty()) {
     // The node as it was typed: what a file says comes too late for that.
-    file = of_ros ? LoadRosParameters(settings.parameter_file,
+    file = of_ros ? LoadRosParameters(settings.parameter_files,
                                       NodeOf(settings.ros, options).FullName(), options.config)
                   : LoadSettings(settings.file, options.config);
-    options.settings_file = of_ros ? settings.parameter_file : settings.file;
+    options.settings_files =
+        of_ros ? settings.parameter_files : std::vector<std::string>{settings.file};
   }
   for (const std::string& parameter : settings.ros.parameters)
     ReadRosParameter(parameter, file, options.config);

@@ -14,7 +14,7 @@ namespace disflow::apps {
 /// What was typed about settings and objects, and the file that says more.
 struct SettingSources {
   std::string file;
-  std::string parameter_file;  ///< Of ROS, in place of the other.
+  std::vector<std::string> parameter_files;  ///< Of ROS, in place of the other.
   RosArguments ros;
   std::vector<std::string> assignments;
   // Short forms of settings.

@@ -83,7 +83,7 @@ void RefuseHalfWritten(const std::string& file) {
 
 RereadSettings ReadSettingsAgain(const CommandLine& command, const Options& running,
                                  std::span<const Config> now) {
-  RefuseHalfWritten(running.settings_file);
+  for (const std::string& file : running.settings_files) RefuseHalfWritten(file);
   RereadSettings reread;
   for (std::size_t i = 0; i < now.size(); ++i) {
     bool exit_now = false;

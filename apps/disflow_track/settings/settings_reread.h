@@ -15,14 +15,14 @@ struct CommandLine {
   char** argv = nullptr;
 };
 
-/// What a settings file says that was read again while the program runs.
+/// What settings files say that were read again while the program runs.
 struct RereadSettings {
   std::vector<Config> wanted;  ///< One per object.
   /// What differs and holds only from the next start on: options of [run], objects, settings.
   std::vector<std::string> kept;
 };
 
-/// Reads the settings file of a run again. What neither it nor the command line mentions is as it
+/// Reads the settings files of a run again. What neither they nor the command line mention is as it
 /// is now, so that a file of which a part is missing takes nothing away. A file that does not end
 /// with a line is taken for one that is just being written.
 /// @param running The options that the run began with.

@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cstdlib>
+#include <optional>
 #include <random>
+#include <string>
 
 #include "program/exit_status.h"
 #include "refusal.h"
@@ -15,6 +18,29 @@ namespace {
 std::string Refusal(const std::string& uri) {
   return RefusalOf([&] { (void)ParseDdsAddress(uri); });
 }
+
+/// For as long as it lives ROS_DOMAIN_ID is as it says; nothing: not set.
+class RosDomainId {
+ public:
+  explicit RosDomainId(const char* value) {
+    if (const char* const before = std::getenv(kName); before != nullptr) before_ = before;
+    Set(value);
+  }
+  ~RosDomainId() { Set(before_ ? before_->c_str() : nullptr); }
+  RosDomainId(const RosDomainId&) = delete;
+  RosDomainId& operator=(const RosDomainId&) = delete;
+
+ private:
+  static constexpr const char* kName = "ROS_DOMAIN_ID";
+  static void Set(const char* value) {
+    if (value == nullptr) {
+      ::unsetenv(kName);
+    } else {
+      ::setenv(kName, value, 1);
+    }
+  }
+  std::optional<std::string> before_;
+};
 
 TEST(DdsAddress, EveryOption_IsTaken) {
   const DdsAddress address = ParseDdsAddress(
@@ -63,7 +89,6 @@ struct Wrong {
 };
 TEST(DdsAddress, EachWrongOption_IsNamedWithWhatItMayBe) {
   for (const Wrong& wrong : std::to_array<Wrong>({
-           {"dds:", "write dds:domain=0"},
            {"dds:domain", "domain is not OPTION=VALUE"},
            {"dds:domain=233", "from 0 to 232"},
            {"dds:domain=-1", "from 0 to 232"},
@@ -89,6 +114,30 @@ TEST(DdsAddress, EachWrongOption_IsNamedWithWhatItMayBe) {
   }
 }
 
+TEST(DdsAddress, ThatNamesNoDomain_IsInThatOfRos) {
+  for (const auto& [value, domain] : {std::pair<const char*, std::uint32_t>{nullptr, 0},
+                                      {"", 0},
+                                      {"0", 0},
+                                      {"42", 42},
+                                      {"232", 232}}) {
+    const RosDomainId of_ros(value);
+    EXPECT_EQ(ParseDdsAddress("dds:").domain, domain);
+    EXPECT_EQ(ParseDdsAddress("dds:name=eye").domain, domain);
+    EXPECT_EQ(ParseDdsSensorAddress("dds:depth=/a").domain, domain);
+    EXPECT_EQ(ParseDdsAddress("dds:domain=7").domain, 7U) << "what is said counts";
+  }
+}
+
+TEST(DdsAddress, DomainOfRosThatIsNone_IsRefusedWhereItWouldCount) {
+  for (const char* const value : {"233", "-1", "1x", " 1", "all"}) {
+    const RosDomainId of_ros(value);
+    const std::string said = Refusal("dds:name=eye");
+    EXPECT_NE(said.find("ROS_DOMAIN_ID=" + std::string(value)), std::string::npos) << said;
+    EXPECT_NE(said.find("from 0 to 232"), std::string::npos) << said;
+    EXPECT_EQ(ParseDdsAddress("dds:domain=7").domain, 7U);
+  }
+}
+
 TEST(DdsSensorAddress, EveryOption_IsTaken) {
   const DdsSensorAddress address = ParseDdsSensorAddress(
       "dds:domain=5&name=arm&interface=eth0&peer=10.0.0.2&ros=humble&depth=/cam/image/"
@@ -107,7 +156,6 @@ TEST(DdsSensorAddress, EveryOption_IsTaken) {
 
 TEST(DdsSensorAddress, WhatIsLeftOut_KeepsItsDefault) {
   const DdsSensorAddress address = ParseDdsSensorAddress("dds:depth=/depth");
-  EXPECT_EQ(address.domain, 0U);
   EXPECT_EQ(address.info_topic, "");
   EXPECT_FALSE(address.rectified.has_value());
   EXPECT_GT(address.wait_s, 0U);

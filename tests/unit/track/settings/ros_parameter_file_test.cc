@@ -49,7 +49,36 @@ TEST_F(RosParameterFileTest, OptionsOfTheCommandLine_AreTakenUnlessTheyWereTyped
   EXPECT_TRUE(options.headless);
   EXPECT_EQ(options.objects.at(0).config.segmenter.max_range_m, 1.5F);
   EXPECT_EQ(options.frames, 7);
-  EXPECT_EQ(options.settings_file, Path("params.yaml")) << "SIGHUP reads it again";
+  EXPECT_EQ(options.settings_files, std::vector{Path("params.yaml")}) << "SIGHUP reads it again";
+}
+
+// A launch file's Node hands over one for each entry of its parameters.
+TEST_F(RosParameterFileTest, OfSeveralFiles_TheLastWordCountsAndOthersNodesMayHaveTheirOwn) {
+  const std::string head = "/**:\n  ros__parameters:\n";
+  test::WriteFile(Path("camera.yaml"), "camera:\n  ros__parameters: {exposure: 3}\n");
+  test::WriteFile(Path("over.yaml"),
+                  head + "    registration.iterations: 12\n    run.frames: 30\n");
+  const Options options =
+      Parse(head + "    registration.iterations: 9\n    sampler.border_px: 3\n    run.frames: 7\n",
+            {"--params-file", Path("camera.yaml"), "--params-file", Path("over.yaml")});
+  EXPECT_EQ(options.objects.at(0).config.registration.iterations, 12);
+  EXPECT_EQ(options.objects.at(0).config.sampler.border_px, 3);
+  EXPECT_EQ(options.frames, 30);
+  const std::vector<std::string> read = {Path("params.yaml"), Path("camera.yaml"),
+                                         Path("over.yaml")};
+  EXPECT_EQ(options.settings_files, read) << "SIGHUP reads all of them again";
+}
+
+TEST_F(RosParameterFileTest, SeveralFiles_AreRefusedWhereNoneIsOfTheNodeAndByTheOneThatIsWrong) {
+  test::WriteFile(Path("more.yaml"), "lens:\n  ros__parameters: {a: 1}\n");
+  const std::vector<std::string> more = {"--params-file", Path("more.yaml")};
+  const std::string none =
+      RefusalOf([&] { (void)Parse("camera:\n  ros__parameters: {a: 1}\n", more); });
+  EXPECT_TRUE(none.starts_with(Path("params.yaml") + ", " + Path("more.yaml") + ": ")) << none;
+  test::WriteFile(Path("more.yaml"), "/**:\n  ros__parameters: {a: 1}\n");
+  const std::string wrong = RefusalOf(
+      [&] { (void)Parse("/**:\n  ros__parameters: {registration.iterations: 9}\n", more); });
+  EXPECT_TRUE(wrong.starts_with(Path("more.yaml") + ":2: ")) << wrong;
 }
 
 TEST_F(RosParameterFileTest, SeveralObjects_HaveTheirOwnAndWhatWasTypedWins) {
@@ -123,10 +152,9 @@ TEST_F(RosParameterFileTest, AliasesThatMultiply_EndAtOnce) {
     text += "}\n";
   }
   Config config;
-  test::WriteFile(Path("bomb.yaml"),
-                  text + "/**:\n  ros__parameters: {use_sim_time: 0, run: *a5}\n");
-  EXPECT_FALSE(
-      RefusalOf([&] { (void)LoadRosParameters(Path("bomb.yaml"), "/disflow", config); }).empty());
+  const std::vector<std::string> bomb = {Path("bomb.yaml")};
+  test::WriteFile(bomb[0], text + "/**:\n  ros__parameters: {use_sim_time: 0, run: *a5}\n");
+  EXPECT_FALSE(RefusalOf([&] { (void)LoadRosParameters(bomb, "/disflow", config); }).empty());
 }
 
 }  // namespace
