@@ -17,11 +17,8 @@ namespace {
 /// by enough, and each passes near the place of the other's end. Outlines of round things that have
 /// turned by 60 degrees lie half a radius off each other's planes.
 [[nodiscard]] bool EndsOtherFace(const ModelEdge& edge, const EdgePoint& point) noexcept {
-  constexpr float kMeetingCos = 0.5F;  // 60 degrees
-  // Two deviations above what is expected: rounder things have no edge.
-  constexpr float kRoundest_m = 3.0F * kExpectedRadius_m;
   if (edge.normal.dot(point.normal) > kMeetingCos) return false;
-  const float reach_m = MergeRadius(point, 0.5F * kRoundest_m);
+  const float reach_m = MergeRadius(point, kMeetingReach_m);
   const Vec3 apart_m = edge.position_m - point.position_m;
   return std::abs(edge.normal.dot(apart_m)) < reach_m &&
          std::abs(point.normal.dot(apart_m)) < reach_m;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "disflow/field/edge_sliver.h"
 #include "disflow/field/fast_math.h"
 #include "disflow/flow/model_agreement.h"
 #include "disflow/flow/model_drift.h"
@@ -38,6 +39,7 @@ typename Tracker<Limits>::Aligned Tracker<Limits>::Register(const DepthFrame& fr
       PoseSearch<Limits>(registration, field_, model_edges_, config_.registration, prior)
           .Find(conflict);
   if (prior.global >= 0) global_part_ = (global_part_ + 1) % PoseSearch<Limits>::kGlobalFrames;
+  DoubtSlivers(field_, start.T_oc, frame.camera, config_.sampler.edge_min_cos_incidence, edges_);
   registration.SetObservations(samples_, edges_);
   Aligned aligned =
       registration.Align(field_, model_edges_, config_.registration, start.T_oc, start.T_expected,

@@ -55,7 +55,6 @@ class EdgeSampler {
   static constexpr float kFlatTilt = 0.08F;
   static constexpr float kMostSteadyTilt = 0.3F;
   static constexpr float kMostTilt = 0.5F;
-  static constexpr int kFlyingPx = 2;  ///< Next to an outline, where pixels may be mixed ones.
 
   [[nodiscard]] static bool MakeEdge(const DepthReader& depth, const PinholeCamera& camera,
                                      const Outline& outline, const OutlinePoint& point,

@@ -27,6 +27,9 @@ struct OutlinePoint {
 /// object's depth: half of a large window.
 inline constexpr int kMatchingReachPx = 8;
 
+/// Next to an outline, where pixels may be mixed ones.
+inline constexpr int kFlyingPx = 2;
+
 /// Half the width of the outline that a straight line is fitted to.
 inline constexpr int kOutlineDiskPx = 4;
 
