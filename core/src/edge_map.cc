@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "disflow/field/meeting_faces.h"
+
 namespace disflow {
 namespace {
 

@@ -57,8 +57,8 @@ TEST(EdgeSliver, OfANoisyModel_IsToldAsWell) {
 
 TEST(EdgeSliver, WhereNoOtherFaceIsKnown_ThereIsNone) {
   const auto sheet = testing::MakeModel(
-      testing::Moved(testing::Plane(0.05F), Transform<Object, Object>(
-                                                Mat3::Identity(), Vec3(0.0F, 0.0F, Half_m().z()))));
+      testing::Moved(testing::Plane(0.05F),
+                     Transform<Object, Object>(Mat3::Identity(), Vec3(0.0F, 0.0F, Half_m().z()))));
   const auto nothing = std::make_unique<EdgeField>();
   nothing->Start({});
   ExpectAlongTheEdge(*sheet, [](float) { return false; });

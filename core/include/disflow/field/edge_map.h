@@ -32,12 +32,6 @@ struct ModelEdge {
 /// The edge that a first point makes.
 [[nodiscard]] ModelEdge MakeModelEdge(const EdgePoint& point, std::uint32_t frame) noexcept;
 
-/// Of normals of faces that meet at an edge: 60 degrees and more apart.
-inline constexpr float kMeetingCos = 0.5F;
-/// How far the plane of either may pass from where the other ends. Half a radius two deviations
-/// above what is expected: rounder things have no edge.
-inline constexpr float kMeetingReach_m = 0.5F * 3.0F * kExpectedRadius_m;
-
 /// Whether a point may show an edge: by direction, faces, and how well the edge is known. An edge
 /// is where two faces meet, and is the outline of either when the other has turned away: what one
 /// was built with holds the other. Directions are compared as the image shows them: how an edge

@@ -5,7 +5,7 @@
 
 #include "disflow/depth/outline.h"
 #include "disflow/depth/surface_sample.h"
-#include "disflow/field/edge_map.h"
+#include "disflow/field/meeting_faces.h"
 #include "disflow/geometry/pinhole_camera.h"
 #include "disflow/geometry/transform.h"
 #include "disflow/types.h"
@@ -30,9 +30,9 @@ template <class Field>
         const float cos_incidence = -normal.dot(point.ray);
         const bool is_sliver = cos_incidence > 0.0F && cos_incidence < most_cos;
         const bool is_beyond = normal.dot(point.outward) > kLeastOutwardCos;
-        shows = shows || (is_sliver && is_beyond && normal.dot(point.normal) < kMeetingCos &&
-                          std::abs(normal.dot(cluster.centroid_m - point.position_m)) <
-                              kMeetingReach_m);
+        shows = shows ||
+                (is_sliver && is_beyond && normal.dot(point.normal) < kMeetingCos &&
+                 std::abs(normal.dot(cluster.centroid_m - point.position_m)) < kMeetingReach_m);
       });
   return shows;
 }
@@ -41,8 +41,8 @@ template <class Field>
 /// looked at beside outlines.
 /// @param edges Camera frame.
 template <class Field, class Edges>
-void DoubtSlivers(const Field& field, const PoseObjectFromCamera& T_oc,
-                  const PinholeCamera& camera, float most_cos, Edges& edges) noexcept {
+void DoubtSlivers(const Field& field, const PoseObjectFromCamera& T_oc, const PinholeCamera& camera,
+                  float most_cos, Edges& edges) noexcept {
   for (EdgePoint& point : edges) {
     if (!MayEndInSliver(field, T_oc * point, most_cos)) continue;
     const float width_m = kFlyingPx * point.position_m.z() / camera.fx_px;
