@@ -18,8 +18,8 @@ void FirstView::Learn(const Mat6& registered_o, const PoseNoise& noise, float ou
 }
 
 Mat6 FirstView::Covariance(const Mat3& R_co, float outline_m) const noexcept {
+  if (frames_ == 0) return Mat6::Zero();
   Mat6 covariance = noise_.asDiagonal() * registered_o_ * noise_.asDiagonal();
-  if (frames_ == 0) return covariance;
   // Across its rays each view's pose hangs on outlines, which err alike whatever their number. Of
   // what they are off by in both views the pose has the difference.
   const float alike = std::clamp(0.5F * (R_co.trace() - 1.0F), 0.0F, 1.0F);

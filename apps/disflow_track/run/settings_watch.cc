@@ -25,6 +25,9 @@ std::string Join(const std::vector<std::string>& parts) {
   return text;
 }
 
+/// The files that messages are about.
+std::string Where(const Options& options) { return Join(options.settings_files) + ": "; }
+
 }  // namespace
 
 SettingsWatch::SettingsWatch(const CommandLine& command, const Options& options,
@@ -58,7 +61,7 @@ void SettingsWatch::ReadAgain() {
   std::vector<Config> now;
   for (ObjectChannel* const channel : channels_) now.push_back(channel->settings().Now());
   const RereadSettings reread = ReadSettingsAgain(command_, options_, now);
-  const std::string where = Join(options_.settings_files) + ": ";
+  const std::string where = Where(options_);
   std::size_t changes = 0;
   for (std::size_t i = 0; i < channels_.size(); ++i) changes += Adopt(i, now[i], reread.wanted[i]);
   if (changes == 0) console_.Say(where + "read again, no setting of the tracker changes");
@@ -72,7 +75,7 @@ std::size_t SettingsWatch::Adopt(std::size_t object, const Config& before, const
   const std::vector<std::string> changes =
       DescribeChanges(before, AdjustedAtRunTime(before, wanted));
   if (changes.empty()) return 0;
-  const std::string where = Join(options_.settings_files) + ": ";
+  const std::string where = Where(options_);
   const std::string of = channels_.size() > 1 ? channels_[object]->name() + ": " : "";
   const ConfigIssue issue = channels_[object]->settings().Change([&](Config& config) {
     // What was changed elsewhere meanwhile stays.

@@ -26,13 +26,13 @@ template <class Field>
   bool shows = false;
   field.store().ForEachNear(
       point.position_m + reach_m * point.ray, reach_m, [&](auto, const auto& cluster) {
+        if (shows) return;
         const Vec3& normal = cluster.mean_normal;
         const float cos_incidence = -normal.dot(point.ray);
-        const bool is_sliver = cos_incidence > 0.0F && cos_incidence < most_cos;
-        const bool is_beyond = normal.dot(point.outward) > kLeastOutwardCos;
-        shows = shows ||
-                (is_sliver && is_beyond && normal.dot(point.normal) < kMeetingCos &&
-                 std::abs(normal.dot(cluster.centroid_m - point.position_m)) < kMeetingReach_m);
+        if (cos_incidence <= 0.0F || cos_incidence >= most_cos) return;
+        shows = normal.dot(point.outward) > kLeastOutwardCos &&
+                normal.dot(point.normal) < kMeetingCos &&
+                std::abs(normal.dot(cluster.centroid_m - point.position_m)) < kMeetingReach_m;
       });
   return shows;
 }
