@@ -104,9 +104,10 @@ class MaskBand {
   }
 
   /// Around the given mask, as far as surface says anything of the object: within the tolerance,
-  /// and beyond it as far as it is looked for by MaskOverrun.
+  /// and beyond it so far that surface which goes on is seen to. What starts farther out is not the
+  /// surface at the outline.
   [[nodiscard]] PixelBox BoxThatMatters(const Mask& given) const noexcept {
-    const int margin_px = tolerance_px_ + std::max(reach_px(), kLeastBeyond_px);
+    const int margin_px = tolerance_px_ + kBeyond_px;
     return {std::max(given.box().u_min - margin_px, 0), std::max(given.box().v_min - margin_px, 0),
             std::min(given.box().u_max + margin_px, given.width_px()),
             std::min(given.box().v_max + margin_px, given.height_px())};
@@ -137,8 +138,8 @@ class MaskBand {
   /// From the band's outer border across the mask's outline, and as far again.
   [[nodiscard]] int reach_px() const noexcept { return 2 * tolerance_px_ + 1; }
 
-  /// So much more that a surface which goes on beyond an exact mask is seen to.
-  static constexpr int kLeastBeyond_px = 8;
+  /// Holes in a sensor's data are narrower, and so are steps of a walk from pixel to pixel.
+  static constexpr int kBeyond_px = 16;
   static constexpr int kMostTolerance_px = 64;
 
   Mask allowed_;
