@@ -138,7 +138,8 @@ class MaskBand {
   /// From the band's outer border across the mask's outline, and as far again.
   [[nodiscard]] int reach_px() const noexcept { return 2 * tolerance_px_ + 1; }
 
-  /// Holes in a sensor's data are narrower, and so are steps of a walk from pixel to pixel.
+  /// So wide that a walk from pixel to pixel (MaskOverrun::IsReachedFrom) meets surface that goes
+  /// on, also where some pixels have no depth. Real recordings are followed as well with 8.
   static constexpr int kBeyond_px = 16;
   static constexpr int kMostTolerance_px = 64;
 
