@@ -142,11 +142,14 @@ void TwistFilter::AddProcessNoise(float dt) noexcept {
   }
 }
 
-void TwistFilter::Update(const PoseCameraFromObject& T_co, const Mat6& pose_covariance) noexcept {
+void TwistFilter::Update(const PoseCameraFromObject& T_co, const Mat6& pose_covariance,
+                         float stamp_variance_s2) noexcept {
   Vec6 innovation;
   innovation.head<3>() = T_co.translation() - T_co_.translation();
   innovation.tail<3>() = TurnBetween(T_co_.rotation(), T_co.rotation());
-  const Mat6 noise = Resolvable(pose_covariance, covariance_[0][0].diagonal());
+  // A stamp that is off leaves the pose where the object was, or is going to be, at its twist.
+  const Mat6 of_stamp = stamp_variance_s2 * (twist_ * twist_.transpose() + covariance_[1][1]);
+  const Mat6 noise = Resolvable(pose_covariance + of_stamp, covariance_[0][0].diagonal());
   const Eigen::LLT<Mat6> cholesky(noise);
   const SymmetricSolver6 solver(covariance_[0][0] + noise);
   // Only for a measurement that is not finite; the prediction stands.

@@ -163,7 +163,7 @@ void Tracker<Limits>::Follow(StampNs stamp_ns, const Aligned& aligned,
       pose_noise_.Restart();
       ForgetFoundTurnFree(estimate);
     }
-    twist_filter_.Update(T_oc_.Inverse(), covariance.white);
+    twist_filter_.Update(T_oc_.Inverse(), covariance.white, pose_noise_.of_stamps_s2());
   }
   pose_noise_.Learn(stamp_ns, T_oc_.Inverse(), aligned.center_m, covariance.registered,
                     config_.twist);

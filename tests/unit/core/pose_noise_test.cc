@@ -31,8 +31,11 @@ Mat6 Stated() {
 class Registered {
  public:
   /// @param of_position, of_rotation Its true variances, of the stated ones.
-  Registered(float of_position, float of_rotation)
-      : position_(std::sqrt(of_position)), rotation_(std::sqrt(of_rotation)) {}
+  /// @param late_std_s How far stamps are off.
+  Registered(float of_position, float of_rotation, float late_std_s = 0.0F)
+      : position_(std::sqrt(of_position)),
+        rotation_(std::sqrt(of_rotation)),
+        late_std_s_(late_std_s) {}
 
   /// Swings to and fro by 10 cm and 30 degrees every two seconds.
   void Run(int frames, StampNs step_ns = kFrame_ns) {
@@ -40,10 +43,13 @@ class Registered {
   }
   void Step(StampNs step_ns) {
     stamp_ns_ += step_ns;
-    noise_.Learn(stamp_ns_, Pose(Seconds(stamp_ns_)), kCenter_m, Stated(), kCalm);
+    const float late_s = late_std_s_ > 0.0F ? late_std_s_ * normal_(random_) : 0.0F;
+    const PoseCameraFromObject pose = Pose(at_rest_ ? 0.25F : Seconds(stamp_ns_) - late_s);
+    noise_.Learn(stamp_ns_, pose, kCenter_m, Stated(), kCalm);
   }
   /// Something hits it.
   void Jump() { jumped_m_.x() += 0.05F; }
+  void Stop() { at_rest_ = true; }
   [[nodiscard]] PoseNoise& noise() { return noise_; }
 
  private:
@@ -63,6 +69,8 @@ class Registered {
 
   float position_;
   float rotation_;
+  float late_std_s_;
+  bool at_rest_ = false;
   Vec3 jumped_m_ = Vec3::Zero();
   StampNs stamp_ns_ = 0;
   std::mt19937 random_{3};
@@ -112,6 +120,46 @@ TEST(PoseNoise, UnevenStepsAndMissingFrames_AreNoNoise) {
   EXPECT_LT(object.noise().of_position(), 2.0F);
   EXPECT_GT(object.noise().of_rotation(), 0.5F);
   EXPECT_LT(object.noise().of_rotation(), 2.0F);
+}
+
+/// Deviation of stamps that is learnt in the mean of many frames.
+float LearntOfStamps(Registered& object) {
+  constexpr int kFrames = 600;
+  object.Run(200);
+  float variance_s2 = 0.0F;
+  for (int i = 0; i < kFrames; ++i) {
+    object.Step(kFrame_ns);
+    variance_s2 += object.noise().of_stamps_s2() / kFrames;
+  }
+  return std::sqrt(variance_s2);
+}
+
+TEST(PoseNoise, StampsThatAreOff_AreKnownToBeByHowMuch_AndAreNotTakenForNoiseOfThePoses) {
+  for (const float late_std_s : {0.0025F, 0.004F, 0.006F}) {
+    Registered object(0.1F, 0.1F, late_std_s);
+    EXPECT_NEAR(LearntOfStamps(object), late_std_s, 0.3F * late_std_s);
+    EXPECT_LT(object.noise().of_position(), 0.3F);
+    EXPECT_LT(object.noise().of_rotation(), 0.3F);
+  }
+}
+
+TEST(PoseNoise, WhereStampsAreExact_NoiseOfThePosesIsNotTakenForTheirs) {
+  for (const float noise : {0.3F, 1.0F, 4.0F}) {
+    Registered object(noise, noise);
+    EXPECT_LT(LearntOfStamps(object), 5e-4F);
+  }
+}
+
+TEST(PoseNoise, AnObjectAtRest_TellsNothingOfStamps) {
+  Registered object(0.1F, 0.1F, 0.005F);
+  object.Run(300);
+  const float known_s2 = object.noise().of_stamps_s2();
+  object.Stop();
+  object.Run(4);  // until it is seen to stand still
+  const float before_s2 = object.noise().of_stamps_s2();
+  object.Run(300);
+  EXPECT_GT(known_s2, 4e-6F);
+  EXPECT_NEAR(object.noise().of_stamps_s2(), before_s2, 0.5F * before_s2);
 }
 
 TEST(PoseNoise, JerkThatIsExpectedOfTheMotion_IsNoNoise) {
@@ -168,6 +216,8 @@ TEST(PoseNoise, PosesThatAreAlike_OrScatterWithoutBounds_LeaveASizeToWorkWith) {
   EXPECT_GT(still.of_rotation(), 0.01F);
   EXPECT_LT(wild.of_position(), 100.0F);
   EXPECT_LT(wild.of_rotation(), 100.0F);
+  EXPECT_EQ(still.of_stamps_s2(), 0.0F);
+  EXPECT_LE(std::sqrt(wild.of_stamps_s2()), 0.3F * Seconds(kFrame_ns));
 }
 
 TEST(PoseNoise, WhatIsNoCovarianceOrNoPose_ChangesNothing) {

@@ -26,7 +26,9 @@ class TwistFilter {
   /// Moves the state to a later stamp.
   void Predict(StampNs stamp_ns) noexcept;
   /// Corrects the state with a pose registered at the current stamp.
-  void Update(const PoseCameraFromObject& T_co, const Mat6& pose_covariance) noexcept;
+  /// @param stamp_variance_s2 Of the stamp about the time at which the image was taken.
+  void Update(const PoseCameraFromObject& T_co, const Mat6& pose_covariance,
+              float stamp_variance_s2 = 0.0F) noexcept;
   /// Where the object would be at a stamp if it kept its velocity; does not change the state.
   [[nodiscard]] PoseCameraFromObject Extrapolate(StampNs stamp_ns) const noexcept;
   /// Takes another object frame on the same object for its own: motion stays what it was.
