@@ -24,8 +24,8 @@ class StampsThatAreOff : public ::testing::TestWithParam<host::ObjectKind> {
   }
   [[nodiscard]] Vec6 StatedTwist(int index) const {
     const TrackedFrame& frame = sequence_.At(index);
-    const Vec3 lever_m = frame.T_claimed.translation().cast<float>() -
-                         Vec3(frame.estimate.T_co.translation());
+    const Vec3 lever_m =
+        frame.T_claimed.translation().cast<float>() - Vec3(frame.estimate.T_co.translation());
     const Twist& stated = frame.estimate.twist;
     Vec6 twist;
     twist << stated.linear_mps + stated.angular_rps.cross(lever_m), stated.angular_rps;

@@ -14,8 +14,7 @@ namespace disflow {
 /// Bar-Shalom et al., "Estimation with Applications to Tracking and Navigation", section 6.2.3
 /// (white-noise jerk).
 ///
-/// State in camera axes: pose (position of the object's origin, rotation), twist, acceleration; six
-/// components each.
+/// State in camera axes, six each: pose (the origin's position, rotation), twist, acceleration.
 class TwistFilter {
  public:
   void Start(const TwistFilterConfig& config, StampNs stamp_ns, const PoseCameraFromObject& T_co,
@@ -25,8 +24,7 @@ class TwistFilter {
 
   /// Moves the state to a later stamp.
   void Predict(StampNs stamp_ns) noexcept;
-  /// Corrects the state with a pose registered at the current stamp.
-  /// @param stamp_variance_s2 Of the stamp about the time at which the image was taken.
+  /// Corrects the state with a pose registered at the current stamp, which varies about its time.
   void Update(const PoseCameraFromObject& T_co, const Mat6& pose_covariance,
               float stamp_variance_s2 = 0.0F) noexcept;
   /// Where the object would be at a stamp if it kept its velocity; does not change the state.
