@@ -135,8 +135,8 @@ float LearntOfStamps(Registered& object) {
 }
 
 TEST(PoseNoise, StampsThatAreOff_AreKnownToBeByHowMuch_AndAreNotTakenForNoiseOfThePoses) {
-  for (const float late_std_s : {0.0025F, 0.004F, 0.006F}) {
-    Registered object(0.1F, 0.1F, late_std_s);
+  for (const float late_std_s : {0.004F, 0.006F, 0.008F}) {
+    Registered object(0.06F, 0.06F, late_std_s);
     EXPECT_NEAR(LearntOfStamps(object), late_std_s, 0.3F * late_std_s);
     EXPECT_LT(object.noise().of_position(), 0.3F);
     EXPECT_LT(object.noise().of_rotation(), 0.3F);
@@ -151,7 +151,7 @@ TEST(PoseNoise, WhereStampsAreExact_NoiseOfThePosesIsNotTakenForTheirs) {
 }
 
 TEST(PoseNoise, AnObjectAtRest_TellsNothingOfStamps) {
-  Registered object(0.1F, 0.1F, 0.005F);
+  Registered object(0.06F, 0.06F, 0.008F);
   object.Run(300);
   const float known_s2 = object.noise().of_stamps_s2();
   object.Stop();
