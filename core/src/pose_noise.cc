@@ -11,7 +11,7 @@
 namespace disflow {
 namespace {
 
-// Of what is known, per frame.
+// Share of what is known by which a frame moves it.
 constexpr float kGain = 0.1F;
 // Of stamps that are taken for exact. Half a millisecond: at 0.5 m/s what poses scatter by before a
 // D415.
@@ -117,7 +117,7 @@ float FollowStamps(const Deviation& deviation, const Mat6& exact, float late_bef
 void PoseNoise::Learn(StampNs stamp_ns, const PoseCameraFromObject& T_co, const Vec3& center_m,
                       const Mat6& covariance, const TwistFilterConfig& motion) noexcept {
   const Sight sight{stamp_ns, T_co};
-  if (known_ >= static_cast<int>(before_.size())) {
+  if (known_ == static_cast<int>(before_.size())) {
     const Deviation deviation = DeviationFrom(before_, sight, center_m);
     const Mat6 noise = deviation.noises * RotatedCovariance(covariance, T_co.rotation());
     // Third difference of the motion whose jerk is white: 11/20 of its density times dt^5.
@@ -131,17 +131,17 @@ void PoseNoise::Learn(StampNs stamp_ns, const PoseCameraFromObject& T_co, const 
     others.diagonal() += of_motion;
     Mat6 exact = Of(noise);
     exact.diagonal() += of_motion;
-    // With the first deviation the one before is none.
-    if (known_ == static_cast<int>(before_.size())) late_s_ = kNone_s;
     late_s_ = FollowStamps(deviation, exact, late_s_, of_stamps_s2_);
     Follow(deviation.value.head<3>(), noise.topLeftCorner<3, 3>(), others.topLeftCorner<3, 3>(),
            of_position_);
     Follow(deviation.value.tail<3>(), noise.bottomRightCorner<3, 3>(),
            others.bottomRightCorner<3, 3>(), of_rotation_);
+  } else {
+    late_s_ = kNone_s;
   }
   std::rotate(before_.begin(), before_.begin() + 1, before_.end());
   before_.back() = sight;
-  known_ = std::min(known_ + 1, static_cast<int>(before_.size()) + 1);
+  known_ = std::min(known_ + 1, static_cast<int>(before_.size()));
 }
 
 float PoseNoise::of_stamps_s2() const noexcept {

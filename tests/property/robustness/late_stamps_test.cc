@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Eigen/Dense>
-#include <cmath>
 
 #include "tracked_sequence.h"
 
@@ -60,8 +59,9 @@ TEST_P(StampsThatAreOff, TwistIsBetterThanDifferencesOfThePoses_AndSaysHowGood) 
   Vec2 by_differences = Vec2::Zero();
   int inside = 0;
   for (int i = kSettled; i < kFrames; ++i) {
-    const Vec6 error = StatedTwist(i) - TrueTwist(i);
-    const Vec6 of_difference = Difference(i) - TrueTwist(i);
+    const Vec6 truth = TrueTwist(i);
+    const Vec6 error = StatedTwist(i) - truth;
+    const Vec6 of_difference = Difference(i) - truth;
     stated += Vec2(error.head<3>().squaredNorm(), error.tail<3>().squaredNorm());
     by_differences +=
         Vec2(of_difference.head<3>().squaredNorm(), of_difference.tail<3>().squaredNorm());
