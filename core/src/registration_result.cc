@@ -27,8 +27,4 @@ Vec6 DeviationAbout(const Vec3& center_c, const PoseObjectFromCamera& T_oc,
   return deviation;
 }
 
-bool IsSmallerThan(const Vec6& xi, float bound_m, float bound_rad) noexcept {
-  return xi.head<3>().norm() < bound_m && xi.tail<3>().norm() < bound_rad;
-}
-
 }  // namespace disflow

@@ -22,4 +22,8 @@ float ResidualSums::rms_m() const noexcept {
   return std::sqrt(weighted_square_m2 / std::fmax(weight, kNoWeight));
 }
 
+float ResidualSums::std_m() const noexcept {
+  return information > 0.0F ? std::sqrt(weight / information) : 0.0F;
+}
+
 }  // namespace disflow

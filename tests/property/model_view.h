@@ -35,7 +35,8 @@ inline PoseObjectFromCamera Registered(const Registration<profiles::Edge>::Sampl
   const Registration<profiles::Edge>::Edges no_edges{};
   registration->SetObservations(samples, no_edges);
   return registration
-      ->Align(model, no_model_edges, config, T_start, T_start, {0.003F, 0.003F}, config.iterations)
+      ->Align(model, no_model_edges, config, T_start, T_start, {0.003F, 0.003F},
+              {config.iterations})
       .T_oc;
 }
 

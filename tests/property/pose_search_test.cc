@@ -65,7 +65,7 @@ class LostBox : public ::testing::Test {
     EXPECT_LE(start.tried, Search::kMaxStarts + 1);
     const auto aligned =
         registration_->Align(*model_, edges_, config_, start.T_oc, start.T_expected,
-                             start.robust_scale, config_.iterations);
+                             start.robust_scale, {config_.iterations, start.held});
     return TurnBetween(T_oc_.rotation(), aligned.T_oc.rotation()).norm() < 0.02F &&
            (aligned.T_oc.Inverse().translation() - T_oc_.Inverse().translation()).norm() < 0.003F;
   }

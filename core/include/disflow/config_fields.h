@@ -130,8 +130,9 @@ constexpr void VisitFields(ConfigType& config, Visitor&& visitor) {
   auto& reg = config.registration;
   field("registration.iterations", reg.iterations, 1, 50, "1",
         "closed-form steps per frame at most");
-  field("registration.robust_scale_start_m", reg.robust_scale_start_m, 1e-4, 1.0, "m",
-        "robust kernel width at the first step of a search, halved at each; half as much without");
+  field(
+      "registration.robust_scale_start_m", reg.robust_scale_start_m, 1e-4, 1.0, "m",
+      "robust kernel width at the first step of a search, narrower at each; half as much without");
   field("registration.robust_scale_sigmas", reg.robust_scale_sigmas, 0.5, 20.0, "sigma",
         "robust kernel width at the last step");
   field("registration.truncation_m", reg.truncation_m, 1e-4, 1.0, "m",

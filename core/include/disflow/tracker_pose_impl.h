@@ -43,7 +43,7 @@ typename Tracker<Limits>::Aligned Tracker<Limits>::Register(const DepthFrame& fr
   registration.SetObservations(samples_, edges_);
   Aligned aligned =
       registration.Align(field_, model_edges_, config_.registration, start.T_oc, start.T_expected,
-                         start.robust_scale, config_.registration.iterations);
+                         start.robust_scale, {config_.registration.iterations, start.held});
   if (aligned.solved) {
     if (slip_.free()) aligned = FindShift(registration, aligned, start.robust_scale);
     estimate.score = registration.ScoreOfAligned(field_, config_.registration, aligned.T_oc);

@@ -54,7 +54,7 @@ typename Tracker<Limits>::Aligned Tracker<Limits>::FindTurn(const DepthFrame& fr
   turn_part_ = (turn_part_ + 1) % TurnSearch<Limits>::kParts;
   if (!search.Find()) return aligned;
   Aligned turned = registration.Align(field_, model_edges_, config_.registration, search.T_found(),
-                                      search.T_found(), scale, config_.registration.iterations);
+                                      search.T_found(), scale, {config_.registration.iterations});
   if (!turned.solved || !search.Confirms(turned.T_oc)) return aligned;
   const auto plausible = [&](float explained, const PoseObjectFromCamera& T_oc) {
     return explained * (1.0F - AgreementWith(frame, T_oc).conflict());
@@ -88,7 +88,7 @@ typename Tracker<Limits>::Aligned Tracker<Limits>::FindShift(Registration<Limits
   if (!search.Find()) return aligned;
   registration.UseKnownEdges(true);
   Aligned shifted = registration.Align(field_, model_edges_, config_.registration, search.T_found(),
-                                       search.T_found(), scale, config_.registration.iterations);
+                                       search.T_found(), scale, {config_.registration.iterations});
   registration.UseKnownEdges(false);
   if (!shifted.solved || !search.Confirms(shifted.T_oc)) return aligned;
   shifted.shifted = true;

@@ -56,7 +56,8 @@ class Loss : public ::testing::TestWithParam<ObjectKind> {
     EXPECT_EQ(sequence_->last().estimate.reset_counter, 0);
     EXPECT_EQ(sequence_->last().estimate.state, TrackingState::kTracking);
     EXPECT_LT(sequence_->last().off_m, 0.004);
-    EXPECT_LT(sequence_->last().off_deg, 2.0);
+    // What is learnt of a bottle between jumps turns it by up to two degrees.
+    EXPECT_LT(sequence_->last().off_deg, 3.0);
   }
 
   double TrackedFrame::*turn_deg_ = &TrackedFrame::off_deg;  ///< What a lie is told by.

@@ -92,9 +92,8 @@ class Seen {
     return error;
   }
   [[nodiscard]] EdgeRegistration::Result Align(const PoseObjectFromCamera& T_start,
-                                               int iterations = 20) const {
-    return registration_->Align(*model_, edges_, config_, T_start, T_start, {0.01F, 0.003F},
-                                iterations);
+                                               StepLimit steps = {20}) const {
+    return registration_->Align(*model_, edges_, config_, T_start, T_start, {0.01F, 0.003F}, steps);
   }
   [[nodiscard]] float Score(const PoseObjectFromCamera& T_oc) const {
     return registration_->Score(*model_, config_, T_oc);
@@ -196,6 +195,32 @@ Mat6 AlongAxes(const Vec3& axis) {
 TEST(Registration, BoxMovedAndTurned_IsPutBackInAllDirections) {
   Seen seen(OddBox(), InView());
   EXPECT_GE(ShareRecovered(seen, Mat6::Identity(), 6.0F), 0.95F);
+}
+
+TEST(Registration, StepsThatMayEndEarly_AreAQuarterFewerAndEndAsNearToTheTruth) {
+  Seen seen(OddBox(), InView());
+  Perturbation perturbation(7);
+  struct {
+    int steps = 0;
+    float shift2_m2 = 0.0F;
+    float turn2_rad2 = 0.0F;
+  } all, few;
+  const auto add = [&seen](auto& sums, const EdgeRegistration::Result& result) {
+    ASSERT_TRUE(result.solved);
+    const Vec6 error = seen.ErrorOf(result.T_oc);
+    sums.steps += result.iterations;
+    sums.shift2_m2 += error.head<3>().squaredNorm();
+    sums.turn2_rad2 += error.tail<3>().squaredNorm();
+  };
+  for (int i = 0; i < kTrials; ++i) {
+    seen.Look(static_cast<unsigned>(i));
+    const PoseObjectFromCamera T_start = seen.Off(perturbation(0.008F, 5.0F * kDegree_rad));
+    add(all, seen.Align(T_start, {12}));
+    add(few, seen.Align(T_start, {12, true}));
+  }
+  EXPECT_LT(4 * few.steps, 3 * all.steps);
+  EXPECT_LT(few.shift2_m2, 1.1F * all.shift2_m2);
+  EXPECT_LT(few.turn2_rad2, 1.1F * all.turn2_rad2);
 }
 
 TEST(Registration, SphereMoved_IsPutBackAndItsTurnLeftAlone) {
@@ -358,7 +383,7 @@ TEST(Registration, JacobianOfASurfaceSample_IsTheDerivativeOfTheTrueDistance) {
       seen.registration().SetObservations(samples, no_edges);
       const auto result =
           seen.registration().Align(seen.model(), seen.edges(), seen.config(), seen.T_oc(),
-                                    seen.T_oc(), {0.0005F, 0.0005F}, 1);
+                                    seen.T_oc(), {0.0005F, 0.0005F}, {1});
       if (result.unmatched != 1) continue;
       const Vec6 truth =
           Derivative(seen.T_oc(), result.center_m, 1e-3F, [&](const PoseObjectFromCamera& T_oc) {
@@ -415,8 +440,9 @@ TEST(Registration, JacobianOfAnEdge_IsTheDerivativeOfTheRaysDistanceFromIt) {
     (void)edges.push_back(observed);
     const FixedVector<SurfaceSample, 1> no_samples;
     seen.registration().SetObservations(no_samples, edges);
-    const auto result = seen.registration().Align(seen.model(), seen.edges(), seen.config(),
-                                                  seen.T_oc(), seen.T_oc(), {0.0005F, 0.0005F}, 1);
+    const auto result =
+        seen.registration().Align(seen.model(), seen.edges(), seen.config(), seen.T_oc(),
+                                  seen.T_oc(), {0.0005F, 0.0005F}, {1});
     ASSERT_EQ(result.edge_inliers, 1);
     const Vec6 truth =
         Derivative(seen.T_oc(), result.center_m, 1e-3F, [&](const PoseObjectFromCamera& T_oc) {
@@ -542,7 +568,7 @@ TEST(Registration, StrongPrediction_HoldsWhatTheSurfaceDoesNot) {
   xi.head<3>() = 0.01F * slide;
   // The start is off along the plane, the prediction is right.
   const auto result = seen.registration().Align(seen.model(), seen.edges(), seen.config(),
-                                                seen.Off(xi), seen.T_oc(), {0.01F, 0.003F}, 20);
+                                                seen.Off(xi), seen.T_oc(), {0.01F, 0.003F}, {20});
   ASSERT_TRUE(result.solved);
   EXPECT_LT(seen.ErrorOf(result.T_oc).head<3>().norm(), 0.001F);
 }

@@ -35,7 +35,7 @@ class PoseSearch {
     Starts starts;
     if (prior_.search == 0 && prior_.velocity_known && !prior_.contradicted &&
         registration_.Score(field_, config_, T_predicted) >= config_.hypothesis_score) {
-      return prior_.unheld ? Slid(conflict) : Believed();
+      return prior_.unheld ? Slid(conflict) : Believed(true);
     }
     if (prior_.global >= 0) {
       AddGlobal(starts);
@@ -69,8 +69,9 @@ class PoseSearch {
  private:
   using Starts = FixedVector<PoseObjectFromCamera, kMaxStarts>;
 
-  [[nodiscard]] Start Believed() const noexcept {
-    return {prior_.T_predicted, prior_.T_predicted, Scale(kBelievedShare, kSearchedShare), 1};
+  /// @param held Something holds it in its place: the prediction says where it is.
+  [[nodiscard]] Start Believed(bool held) const noexcept {
+    return {prior_.T_predicted, prior_.T_predicted, Scale(kBelievedShare, kSearchedShare), 1, held};
   }
 
   /// Where a face lies whose place nothing held. Only a slide is believed: of what looks much alike
@@ -81,7 +82,7 @@ class PoseSearch {
     (void)starts.push_back(Recentred(prior_.T_predicted));
     const Start found = Best(starts, conflict);
     const ImpulsesApart apart = Apart(found.T_oc);
-    return apart.turn2 > apart.shift2 ? Believed() : found;
+    return apart.turn2 > apart.shift2 ? Believed(false) : found;
   }
 
   /// The n-th part of all rotations.
@@ -161,7 +162,7 @@ class PoseSearch {
     float best = Plausibility(T_best, conflict);
     for (const PoseObjectFromCamera& T_start : starts) {
       const auto aligned = registration_.Align(field_, edges_, config_, T_start, T_start,
-                                               Scale(1.0F, 1.0F), config_.hypothesis_iterations);
+                                               Scale(1.0F, 1.0F), {config_.hypothesis_iterations});
       if (!aligned.solved) continue;
       const float plausibility = Plausibility(aligned.T_oc, conflict);
       if (plausibility <= best) continue;

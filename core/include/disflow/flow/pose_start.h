@@ -15,6 +15,7 @@ struct PoseSearchStart {
   PoseObjectFromCamera T_expected;  ///< What the motion so far says, as far as it is believed.
   RobustScale robust_scale;         ///< How far off it may be.
   int tried = 1;
+  bool held = false;  ///< A prediction that explains the frame, of what something holds in place.
 };
 
 /// What is known before a frame is registered.

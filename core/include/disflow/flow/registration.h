@@ -71,11 +71,11 @@ class Registration {
 
   /// Minimises E = sum d(T_oc x^c)^2 (section V-C) by closed-form steps from T_start.
   /// @param T_predicted Centre of the temporal regulariser.
-  /// @param scale Widths of the robust kernels at the first step, halved at each.
+  /// @param scale Widths of the robust kernels at the first step, see RegistrationPace.
   [[nodiscard]] Result Align(const Field& field, const Model& model_edges,
                              const RegistrationConfig& config, const PoseObjectFromCamera& T_start,
                              const PoseObjectFromCamera& T_predicted, RobustScale scale,
-                             int iterations) noexcept;
+                             StepLimit steps) noexcept;
 
   /// What the pose that Align() found last is told by what was not found while the object may have
   /// slid. Forgets what the points were matched with.
@@ -86,22 +86,9 @@ class Registration {
 
  private:
   static constexpr int kMinInliers = 12;  ///< Twice the unknowns.
-  static constexpr int kMinSteps = 5;     ///< The kernels are narrow then.
-  static constexpr int kMinSearches = 2;
-  static constexpr float kNearby_m = 2e-3F;    ///< A tenth of a cell.
-  static constexpr float kNearby_rad = 2e-2F;  ///< The same at a hand's breadth.
-  static constexpr float kSettledScale_m = 0.003F;
-  static constexpr float kSettled_m = 5e-4F;
-  static constexpr float kSettled_rad = 5e-3F;
-  static constexpr float kConverged_m = 1e-5F;
-  static constexpr float kConverged_rad = 1e-4F;
   /// Share of the squared tilt between normals and gradients that is the gradients': those of the
   /// model average 15 observations, of which a correlation of 0.7 from frame to frame leaves 3.
   static constexpr float kFieldsTilt = 0.25F;
-
-  /// How the points are matched after a step: near the end they hardly move.
-  [[nodiscard]] static Matching MatchingAfter(const Vec6& xi, int steps,
-                                              const RobustScale& scale) noexcept;
 
   [[nodiscard]] static Mat6 OfEdgeErrors(EdgeResiduals<Limits>& edges,
                                          const RegistrationConfig& config, const RobustScale& scale,

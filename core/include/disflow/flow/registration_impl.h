@@ -2,6 +2,7 @@
 #pragma once
 
 #include "disflow/flow/registration.h"
+#include "disflow/flow/registration_pace.h"
 #include "disflow/flow/residual_sums_impl.h"
 
 /// @file
@@ -59,7 +60,7 @@ RegistrationResult Registration<Limits>::Align(const Field& field, const Model& 
                                                const RegistrationConfig& config,
                                                const PoseObjectFromCamera& T_start,
                                                const PoseObjectFromCamera& T_predicted,
-                                               RobustScale scale, int iterations) noexcept {
+                                               RobustScale scale, StepLimit steps) noexcept {
   SurfaceResiduals<Limits> surfaces(field, samples_, config, known_);
   EdgeResiduals<Limits> edges(model_edges, *edges_, config, edge_index_, known_edges_);
   Result result;
@@ -69,10 +70,10 @@ RegistrationResult Registration<Limits>::Align(const Field& field, const Model& 
   result.rounding = edges.known_rounding();
   NormalEquations joint;
   NormalEquations equations;
-  auto matching = Matching::kSearch;
-  for (int i = 0; i < iterations; ++i, scale = scale.Halved()) {
+  RegistrationPace pace(scale, steps);
+  while (!pace.done()) {
     // V-D: H = sum J^T J and b = sum J^T d, at the current pose.
-    joint = Linearise(surfaces, edges, config, scale, matching, result);
+    joint = Linearise(surfaces, edges, config, pace.scale(), pace.matching(), result);
     equations = joint.WithoutRadius();
     result.information.total = equations.h;
     // V-E: the penalty on what deviates from the predicted motion.
@@ -87,16 +88,15 @@ RegistrationResult Registration<Limits>::Align(const Field& field, const Model& 
     // V-D: T <- exp(xi) T.
     result.T_oc = StepAbout(result.center_m, xi, result.T_oc);
     edges.SetRadius(edges.radius_m() + joint.RadiusStep(xi));
-    result.iterations = i + 1;
     result.solved = true;
-    matching = MatchingAfter(xi, i + 1, scale);
-    if (i + 1 >= kMinSteps && IsSmallerThan(xi, kConverged_m, kConverged_rad)) break;
+    pace.Advance(xi, result.std_m);
+    result.iterations = pace.steps();
   }
   // Once, at the end: it costs a factorisation.
   if (result.solved) {
     result.rounding = {edges.radius_m(), joint.RadiusVariance(equations)};
     result.edge_spread = SpreadOf<Limits::kMaxEdgePoints>(edges, result.T_oc);
-    result.information.of_edge_errors = OfEdgeErrors(edges, config, scale, result);
+    result.information.of_edge_errors = OfEdgeErrors(edges, config, pace.scale(), result);
   }
   return result;
 }
@@ -147,16 +147,6 @@ Mat6 Registration<Limits>::OfEdgeErrors(EdgeResiduals<Limits>& edges,
 }
 
 template <class Limits>
-Matching Registration<Limits>::MatchingAfter(const Vec6& xi, int steps,
-                                             const RobustScale& scale) noexcept {
-  if (steps >= kMinSearches && scale.surface_m < kSettledScale_m &&
-      IsSmallerThan(xi, kSettled_m, kSettled_rad)) {
-    return Matching::kLinear;
-  }
-  return IsSmallerThan(xi, kNearby_m, kNearby_rad) ? Matching::kKeep : Matching::kSearch;
-}
-
-template <class Limits>
 NormalEquations Registration<Limits>::Linearise(SurfaceResiduals<Limits>& surfaces,
                                                 EdgeResiduals<Limits>& edges,
                                                 const RegistrationConfig& config,
@@ -187,6 +177,7 @@ NormalEquations Registration<Limits>::Linearise(SurfaceResiduals<Limits>& surfac
   result.normal_mismatch = surface.normal_mismatch;
   result.generation = surface.mean_generation();
   result.rms_m = surface.rms_m();
+  result.std_m = surface.std_m();
   result.edge_inliers = edge.inliers;
   result.edge_trust =
       EdgeTrust(config.edge_agreement, edges.size() - edge.unexpected, edge.inliers);

@@ -15,8 +15,14 @@ namespace disflow {
 struct RobustScale {
   float surface_m = 0.0F;
   float edges_m = 0.0F;
+};
 
-  [[nodiscard]] RobustScale Halved() const noexcept { return {0.5F * surface_m, 0.5F * edges_m}; }
+/// How many steps a registration may take.
+struct StepLimit {
+  int most = 0;
+  /// The start is a prediction that is believed: once a step moves it little, the kernels may
+  /// narrow faster and the steps end early. What is searched for or has slid needs all of them.
+  bool may_end_early = false;
 };
 
 /// What a registration found; the counts are those of its last step.
@@ -35,6 +41,7 @@ struct RegistrationResult {
   float edge_spread = 0.0F;
   float edge_trust = 1.0F;  ///< How far edges are believed, 0..1: as far as they agree.
   float rms_m = 0.0F;
+  float std_m = 0.0F;       ///< What the residuals are known to scatter by, see ResidualSums.
   float generation = 0.0F;  ///< Mean over the surface that was registered to, see Cluster.
   int unmatched = 0;
   int truncated = 0;
@@ -68,8 +75,5 @@ struct RegistrationResult {
 /// @param center_c The centre, camera frame.
 [[nodiscard]] Vec6 DeviationAbout(const Vec3& center_c, const PoseObjectFromCamera& T_oc,
                                   const PoseObjectFromCamera& T_from) noexcept;
-
-/// Whether a step is shorter than both bounds.
-[[nodiscard]] bool IsSmallerThan(const Vec6& xi, float bound_m, float bound_rad) noexcept;
 
 }  // namespace disflow

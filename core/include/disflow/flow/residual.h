@@ -88,6 +88,8 @@ struct ResidualSums {
   [[nodiscard]] float mean_generation() const noexcept;
   [[nodiscard]] float mean_tilt_rad2() const noexcept;  ///< Not negative.
   [[nodiscard]] float rms_m() const noexcept;
+  /// The standard deviation that the residuals have by what is known of them, harmonic mean.
+  [[nodiscard]] float std_m() const noexcept;
   /// Gates one residual, weights it, and adds it.
   /// @param center_m Centre of rotation, object frame. Defined in residual_sums_impl.h.
   void Add(const Residual& residual, const ResidualWeighting& weighting,
