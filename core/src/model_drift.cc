@@ -14,9 +14,10 @@ float LeverOf(const RegistrationInformation& information) noexcept {
   return std::fmax(std::sqrt(moment_m2 / weight), kLeast_m);
 }
 
-float PieceVariance(float outline_m, const RegistrationConfig& config) noexcept {
-  const float place_m = config.drift_outline * outline_m;
-  return place_m * place_m;
+float PieceVariance(const Mat6& covariance, float outline_m,
+                    const RegistrationConfig& config) noexcept {
+  const float place_m2 = covariance.diagonal().head<3>().mean();
+  return config.drift_noise * place_m2 + outline_m * outline_m;
 }
 
 Mat6 DriftOf(const Mat6& covariance, const PlacementScale& scale,
@@ -26,7 +27,7 @@ Mat6 DriftOf(const Mat6& covariance, const PlacementScale& scale,
   const float views = 1.0F + scale.pieces;
   Mat6 result = scale.pieces * config.drift_noise * covariance;
   result.diagonal().head<3>().array() +=
-      scale.pieces * PieceVariance(scale.outline_m, config) + views * bias_m * bias_m;
+      scale.pieces * PieceVariance(covariance, scale.outline_m, config) + views * bias_m * bias_m;
   result.diagonal().tail<3>().array() += views * bias_rad * bias_rad;
   return result;
 }

@@ -91,8 +91,8 @@ struct RegistrationConfig {
   int hypothesis_iterations = 3;
   int score_points = 120;
   float gradient_std_rad = 0.025F;
-  float drift_noise = 8.0F;
-  float drift_outline = 1.5F;
+  float drift_noise = 16.0F;
+  float drift_outline = 0.5F;
   float depth_bias_m = 0.0F;
 };
 

@@ -172,7 +172,7 @@ constexpr void VisitFields(ConfigType& config, Visitor&& visitor) {
       "variance of the place of each piece of surface that the model has grown by since the first "
       "view, in multiples of the pose's noise");
   field("registration.drift_outline", reg.drift_outline, 0.0, 100.0, "1",
-        "how far off its place is for the outlines, in multiples of their standard deviation");
+        "what all of an outline is off by alike, in multiples of its standard deviation");
   field("registration.depth_bias_m", reg.depth_bias_m, 0.0, 1.0, "m",
         "what the sensor's depth is off by, differently in each view, beside its noise: a data "
         "sheet's accuracy");

@@ -112,16 +112,16 @@ class Tracker {
     Mat6 white = Mat6::Zero();       ///< What changes from frame to frame.
     Mat6 to_model = Mat6::Zero();    ///< Relative to the model.
     Mat6 reported = Mat6::Zero();    ///< With the drift of the model since its first view.
-    /// Of the twist, along what no surface tells.
-    Mat6 twist_unobserved = Mat6::Zero();
-    Mat6 unobserved_o = Mat6::Zero();  ///< The same as this frame says it, in object axes.
+    Mat6 twist_unobserved = Mat6::Zero();  ///< Of the twist, along what no surface tells.
+    Mat6 unobserved_o = Mat6::Zero();      ///< The same as this frame says it, in object axes.
     Mat6 free_turn_o = Mat6::Zero();
     bool complete = true;  ///< The frame tells of all directions.
     bool unheld = false;   ///< Along one that it does not tell of the object may lie elsewhere.
     Mat6 free_shift_o = Mat6::Zero();  ///< Along what, as far as in a second, object axes.
     float unobserved_s = 0.0F;
     Mat6 registered_o = Mat6::Zero();  ///< Of the registration, of the origin, object axes.
-    float outline_m = 0.0F;            ///< How far outlines are off, at the object.
+    float outline_m = 0.0F;            ///< What all of an outline is off by, at the object.
+    float piece_m2 = 0.0F;             ///< Variance of the place of new surface.
   };
 
   void Begin(const DepthFrame& frame, Estimate& estimate) noexcept;

@@ -171,7 +171,7 @@ void Tracker<Limits>::Follow(StampNs stamp_ns, const Aligned& aligned,
   model_edges_.SetRounding(Remember(model_edges_.rounding(), aligned.rounding));
   outline_scale_.Learn(outline_.source, aligned.edge_spread);
   field_.SetGeneration(aligned.generation + pose_noise_.of_rotation());
-  field_.SetPieceVariance(PieceVariance(covariance.outline_m, config_.registration));
+  field_.SetPieceVariance(covariance.piece_m2);
   registered_covariance_ = covariance.reported;
   gradient_variance_rad2_ =
       RememberGradientVariance(gradient_variance_rad2_, aligned.information.gradient_variance_rad2);
@@ -297,10 +297,12 @@ typename Tracker<Limits>::PoseCovariance Tracker<Limits>::CovarianceOf(
   const float unobserved_s = std::min(since_s, kLongest_s);
 
   PoseCovariance result;
-  result.outline_m = outline_.std_px * aligned.center_c.z() / frame.camera.fx_px;
+  const float common_px = config_.registration.drift_outline * outline_.std_px;
+  result.outline_m = common_px * aligned.center_c.z() / frame.camera.fx_px;
   const PlacementScale placement{
       .pieces = aligned.generation, .outline_m = result.outline_m, .lever_m = LeverOf(information)};
   result.solved = uncertainty.solved;
+  result.piece_m2 = PieceVariance(uncertainty.of_observed, result.outline_m, config_.registration);
   result.registered = change.covariance;
   result.white = in_camera(pose_noise_.Of(change.covariance));
   result.to_model = in_camera(pose_noise_.Of(uncertainty.covariance));

@@ -36,17 +36,37 @@ TEST(Drift, GrowsWithThePiecesAndInAllDirections) {
 
 TEST(Drift, OfOnePiece_IsThatOfOutlinesInItsPlace_AndOfThePosesNoiseInAll) {
   RegistrationConfig config;
-  config.drift_outline = 2.0F;
   config.drift_noise = 9.0F;
   constexpr float kNoise = 1e-3F;
   const Mat6 noise = kNoise * kNoise * Mat6::Identity();
   const Mat6 drift = DriftOf(noise, Pieces(1.0F), config);
   for (int i = 0; i < 3; ++i) {
-    EXPECT_FLOAT_EQ(Std(drift, i), std::hypot(2.0F * kOutline_m, 3.0F * kNoise));
+    EXPECT_FLOAT_EQ(Std(drift, i), std::hypot(kOutline_m, 3.0F * kNoise, 3.0F * kNoise));
     EXPECT_FLOAT_EQ(Std(drift, 3 + i), 3.0F * kNoise);
   }
   // Of independent pieces variances add up.
   EXPECT_FLOAT_EQ(Std(DriftOf(noise, Pieces(4.0F), config), 0), 2.0F * Std(drift, 0));
+}
+
+// However many samples told it the depth: they err alike.
+TEST(Drift, InTheDirectionThatIsToldBest_IsAsLargeAsTheMeanOfAll) {
+  RegistrationConfig config;
+  config.drift_noise = 4.0F;
+  Vec6 variances;
+  variances << 3e-6F, 3e-6F, 0.0F, 1e-6F, 1e-6F, 1e-6F;
+  const Mat6 drift = DriftOf(variances.asDiagonal(), {.pieces = 1.0F, .lever_m = kLever_m}, config);
+  EXPECT_FLOAT_EQ(drift(2, 2), 4.0F * 2e-6F);
+  EXPECT_FLOAT_EQ(drift(0, 0), 4.0F * (3e-6F + 2e-6F));
+  EXPECT_FLOAT_EQ(drift(5, 5), 4.0F * 1e-6F);
+}
+
+// A turn that is not known says nothing of where the turned surface's centre is.
+TEST(Drift, OfThePlace_IsNoneOfTheTurnsBusiness) {
+  Vec6 variances;
+  variances << Vec3::Constant(1e-8F), 0.0F, 0.1F, 0.0F;
+  const Mat6 drift = DriftOf(variances.asDiagonal(), Pieces(1.0F), {});
+  EXPECT_LT(Std(drift, 0), 1e-3F);
+  EXPECT_GT(Std(drift, 4), 0.3F);
 }
 
 TEST(Drift, WhatTheSensorIsOffByFromViewToView_IsInThePoseFromTheFirstViewOn) {

@@ -17,13 +17,13 @@ class FirstView {
   /// Takes in a followed frame.
   /// @param registered_o Covariance of its registration (origin's position, rotation), object axes.
   /// @param noise How much of that covariance poses show so far.
-  /// @param outline_m How far off outlines are, at the object.
+  /// @param outline_m What all of an outline is off by, at the object.
   void Learn(const Mat6& registered_o, const PoseNoise& noise, float outline_m) noexcept;
 
   /// What it leaves uncertain of a pose. Outlines of two views are off alike, and leave nothing,
   /// as far as the views are: by the cosine of the turn between them.
   /// @param R_co From the object frame, whose axes are those of the first view's camera.
-  /// @param outline_m How far off outlines are in this view.
+  /// @param outline_m The same in this view.
   /// @return Of (origin's position, rotation), object axes.
   [[nodiscard]] Mat6 Covariance(const Mat3& R_co, float outline_m) const noexcept;
 

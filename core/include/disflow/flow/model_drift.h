@@ -16,18 +16,20 @@ struct PlacementScale {
   /// Pieces of surface that the model has grown by since the first view, each counted as often as
   /// its pose was noisier than its registration said; see Cluster::generation.
   float pieces = 0.0F;
-  float outline_m = 0.0F;  ///< How far outlines are off.
+  float outline_m = 0.0F;  ///< What all of an outline is off by.
   float lever_m = 0.0F;    ///< See LeverOf().
 };
 
-/// Variance of the place of one piece of surface that is due to outlines [m^2].
-[[nodiscard]] float PieceVariance(float outline_m, const RegistrationConfig& config) noexcept;
+/// Variance of the place of one piece of surface in any direction [m^2]: what all of it shares with
+/// its outline, and with the noise that was registered.
+[[nodiscard]] float PieceVariance(const Mat6& covariance, float outline_m,
+                                  const RegistrationConfig& config) noexcept;
 
 /// Covariance of (position of the centre, rotation) that comes of where the model's surface is.
 ///
 /// Surface that comes into view is built into the model with the error of its pose, and later poses
-/// are registered to it. All of a face errs alike, so that the residuals do not show it. While a
-/// face comes into view the pose hangs on outlines, which err alike, too, whatever their number.
+/// are registered to it. All of a face errs alike, so that the residuals do not show it: in its
+/// place by about as much in all directions, however well they seem to tell some of them.
 /// What the sensor's depth is off by from view to view is in all poses and in all surface.
 /// @param covariance Of the registration alone.
 [[nodiscard]] Mat6 DriftOf(const Mat6& covariance, const PlacementScale& scale,
