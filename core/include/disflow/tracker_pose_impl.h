@@ -302,7 +302,7 @@ typename Tracker<Limits>::PoseCovariance Tracker<Limits>::CovarianceOf(
   const PlacementScale placement{
       .pieces = aligned.generation, .outline_m = result.outline_m, .lever_m = LeverOf(information)};
   result.solved = uncertainty.solved;
-  result.piece_m2 = PieceVariance(uncertainty.of_observed, result.outline_m, config_.registration);
+  result.piece_m2 = PieceVariance(uncertainty.of_observed, placement, config_.registration);
   result.registered = change.covariance;
   result.white = in_camera(pose_noise_.Of(change.covariance));
   result.to_model = in_camera(pose_noise_.Of(uncertainty.covariance));

@@ -69,6 +69,16 @@ TEST(Drift, OfThePlace_IsNoneOfTheTurnsBusiness) {
   EXPECT_GT(Std(drift, 4), 0.3F);
 }
 
+TEST(Drift, OfSurfaceFarFromTheCentre_HasItsTurnAsWell) {
+  RegistrationConfig config;
+  config.drift_noise = 4.0F;
+  Vec6 variances;
+  variances << Vec3::Constant(1e-8F), Vec3::Constant(9e-6F);
+  const PlacementScale scale = {.lever_m = kLever_m};
+  const float expected_m2 = 4.0F * (1e-8F + 2.0F / 3.0F * 9e-6F * kLever_m * kLever_m);
+  EXPECT_FLOAT_EQ(PieceVariance(variances.asDiagonal(), scale, config), expected_m2);
+}
+
 TEST(Drift, WhatTheSensorIsOffByFromViewToView_IsInThePoseFromTheFirstViewOn) {
   RegistrationConfig config;
   config.depth_bias_m = 2e-3F;

@@ -20,9 +20,9 @@ struct PlacementScale {
   float lever_m = 0.0F;    ///< See LeverOf().
 };
 
-/// Variance of the place of one piece of surface in any direction [m^2]: what all of it shares with
-/// its outline, and with the noise that was registered.
-[[nodiscard]] float PieceVariance(const Mat6& covariance, float outline_m,
+/// Variance of where one piece of surface is, at a point of it in any direction [m^2]: what all of
+/// it shares with its outline and with the noise that was registered, and its turn.
+[[nodiscard]] float PieceVariance(const Mat6& covariance, const PlacementScale& scale,
                                   const RegistrationConfig& config) noexcept;
 
 /// Covariance of (position of the centre, rotation) that comes of where the model's surface is.
