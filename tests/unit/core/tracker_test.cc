@@ -601,6 +601,20 @@ TEST(Tracker, AnyIntrinsics_AreRefusedOrGiveFiniteEstimates) {
   EXPECT_GT(taken, 15);
 }
 
+// What outlines are taken to be off by decides how sure a pose is, not where it is.
+TEST(Tracker, OutlinesThatAreOffAlikeByMore_LeaveThePoseItselfAndMakeItLessSure) {
+  Config config;
+  config.registration.drift_outline *= 40.0F;
+  Tracking usual;
+  Tracking vague;
+  ASSERT_EQ(vague.tracker().Adjust(config), Status::kOk);
+  const Estimate a = usual.Run(15);
+  const Estimate b = vague.Run(15);
+  EXPECT_EQ(a.T_co.translation(), b.T_co.translation());
+  EXPECT_EQ(a.T_co.rotation(), b.T_co.rotation());
+  for (int i = 0; i < 3; ++i) EXPECT_GT(b.pose_covariance(i, i), a.pose_covariance(i, i)) << i;
+}
+
 TEST(Tracker, ImageUpsideDown_TurnsPoseTwistAndCovariance) {
   const Mat3 turn = Vec3(-1.0F, -1.0F, 1.0F).asDiagonal();
   Mat6 both = Mat6::Zero();
