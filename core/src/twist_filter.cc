@@ -53,6 +53,7 @@ PoseCameraFromObject Displaced(const PoseCameraFromObject& T_co,
 }  // namespace
 
 void TwistFilter::RestartMotion() noexcept {
+  motion_noise_.Restart();
   twist_.setZero();
   acceleration_.setZero();
   for (std::size_t i = 0; i < kBlocks; ++i) {
@@ -68,6 +69,7 @@ void TwistFilter::RestartMotion() noexcept {
 void TwistFilter::Start(const TwistFilterConfig& config, StampNs stamp_ns,
                         const PoseCameraFromObject& T_co, const Mat6& pose_covariance) noexcept {
   config_ = config;
+  motion_noise_ = {};
   stamp_ns_ = stamp_ns;
   T_co_ = T_co;
   covariance_[0][0] = pose_covariance;
@@ -130,8 +132,16 @@ void TwistFilter::AddImpulse() noexcept {
   acceleration_.setZero();
 }
 
+TwistFilterConfig TwistFilter::motion() const noexcept {
+  TwistFilterConfig motion = config_;
+  motion.linear_jerk_psd *= motion_noise_.of_position();
+  motion.angular_jerk_psd *= motion_noise_.of_rotation();
+  return motion;
+}
+
 void TwistFilter::AddProcessNoise(float dt) noexcept {
-  const Mat6 jerk_psd = Diagonal(config_.linear_jerk_psd, config_.angular_jerk_psd);
+  const TwistFilterConfig expected = motion();
+  const Mat6 jerk_psd = Diagonal(expected.linear_jerk_psd, expected.angular_jerk_psd);
   const float dt2 = dt * dt;
   const float dt3 = dt2 * dt;
   const float q[kBlocks][kBlocks] = {{dt3 * dt2 / 20.0F, dt2 * dt2 / 8.0F, dt3 / 6.0F},
@@ -143,18 +153,26 @@ void TwistFilter::AddProcessNoise(float dt) noexcept {
 }
 
 void TwistFilter::Update(const PoseCameraFromObject& T_co, const Mat6& pose_covariance,
-                         float stamp_variance_s2) noexcept {
+                         const PoseManner& manner) noexcept {
   Vec6 innovation;
   innovation.head<3>() = T_co.translation() - T_co_.translation();
   innovation.tail<3>() = TurnBetween(T_co_.rotation(), T_co.rotation());
   // A stamp that is off leaves the pose where the object was, or is going to be, at its twist.
-  const Mat6 of_stamp = stamp_variance_s2 * (twist_ * twist_.transpose() + covariance_[1][1]);
+  const Mat6 of_stamp =
+      manner.stamp_variance_s2 * (twist_ * twist_.transpose() + covariance_[1][1]);
   const Mat6 noise = Resolvable(pose_covariance + of_stamp, covariance_[0][0].diagonal());
   const Eigen::LLT<Mat6> cholesky(noise);
   const SymmetricSolver6 solver(covariance_[0][0] + noise);
   // Only for a measurement that is not finite; the prediction stands.
   if (cholesky.info() != Eigen::Success || !solver.ok() || !innovation.allFinite()) return;
-  if (innovation.dot(solver.Solve(innovation)) > kImpulseNis) AddImpulse();
+  if (innovation.dot(solver.Solve(innovation)) > kImpulseNis) {
+    AddImpulse();
+    motion_noise_.Restart();
+  } else if (!manner.complete || manner.stamp_variance_s2 > 0.0F) {
+    motion_noise_.Pause();
+  } else {
+    motion_noise_.Learn(innovation, covariance_[0][0] + noise);
+  }
 
   // Along independent axes, one after the other: a matrix of all of them at once, of which some are
   // known a million times better than others, has no inverse in float.

@@ -96,7 +96,8 @@ struct RegistrationConfig {
   float depth_bias_m = 0.0F;
 };
 
-/// Velocity at the capture time.
+/// Velocity at the capture time. The jerk is that of an object in a hand; what one has follows its
+/// motion, see MotionNoise.
 struct TwistFilterConfig {
   float linear_jerk_psd = 1.0F;
   float angular_jerk_psd = 15.0F;

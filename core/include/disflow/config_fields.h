@@ -178,9 +178,10 @@ constexpr void VisitFields(ConfigType& config, Visitor&& visitor) {
         "sheet's accuracy");
   auto& twist = config.twist;
   field("twist.linear_jerk_psd", twist.linear_jerk_psd, 1e-6, 1e9, "m^2/s^5",
-        "power density of the jerk, translation");
+        "power density of the jerk, translation, at first; a thirtieth to three times as much is "
+        "followed");
   field("twist.angular_jerk_psd", twist.angular_jerk_psd, 1e-6, 1e9, "rad^2/s^5",
-        "power density of the jerk, rotation");
+        "power density of the jerk, rotation; likewise");
   auto& mon = config.monitor;
   field("monitor.min_samples", mon.min_samples, 10, 2000, "1",
         "fewer surface samples do not make a pose");

@@ -143,7 +143,8 @@ void Tracker<Limits>::Follow(StampNs stamp_ns, const Aligned& aligned,
   T_oc_previous_ = T_oc_;
   recognition_.Forget();
   global_part_ = 0;
-  if (covariance.twist_unobserved.isZero(0.0F)) observed_ns_ = stamp_ns;
+  const bool complete = covariance.twist_unobserved.isZero(0.0F);
+  if (complete) observed_ns_ = stamp_ns;
   // The twist filter sees differences between frames, in which the drift of the model cancels.
   if (found_again) {
     twist_filter_.Start(config_.twist, stamp_ns, T_oc_.Inverse(), covariance.white);
@@ -163,10 +164,11 @@ void Tracker<Limits>::Follow(StampNs stamp_ns, const Aligned& aligned,
       pose_noise_.Restart();
       ForgetFoundTurnFree(estimate);
     }
-    twist_filter_.Update(T_oc_.Inverse(), covariance.white, pose_noise_.of_stamps_s2());
+    twist_filter_.Update(T_oc_.Inverse(), covariance.white,
+                         {.stamp_variance_s2 = pose_noise_.of_stamps_s2(), .complete = complete});
   }
   pose_noise_.Learn(stamp_ns, T_oc_.Inverse(), aligned.center_m, covariance.registered,
-                    config_.twist);
+                    twist_filter_.motion());
   estimate.weak = FindWeakDirection(covariance.reported, config_.monitor);
   model_edges_.SetRounding(Remember(model_edges_.rounding(), aligned.rounding));
   outline_scale_.Learn(outline_.source, aligned.edge_spread);

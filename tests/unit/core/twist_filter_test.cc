@@ -413,7 +413,7 @@ Vec2 MeanSquaredErrors(float late_std_s) {
       off_s = late_s(random);
       const auto off_ns = static_cast<StampNs>(std::lround(1e9F * off_s));
       filter.Predict(kStart_ns + i * kFrame_ns + off_ns);
-      filter.Update(object.Measured(), PoseCovariance(), variance_s2);
+      filter.Update(object.Measured(), PoseCovariance(), {.stamp_variance_s2 = variance_s2});
     }
     Vec6 error;
     const PoseCameraFromObject& T_co = object.T_co();

@@ -5,14 +5,21 @@
 
 #include "disflow/config.h"
 #include "disflow/estimate.h"
+#include "disflow/flow/motion_noise.h"
 #include "disflow/geometry/transform.h"
 
 namespace disflow {
 
+/// What a pose's covariance does not say of it.
+struct PoseManner {
+  float stamp_variance_s2 = 0.0F;  ///< How much its stamp varies about its time.
+  bool complete = true;            ///< Whether it is told in all directions.
+};
+
 /// Kalman filter with constant acceleration, open to impulses, driven by registered poses; yields
 /// velocity at the frame's capture time. A finite difference of poses would lag by half a frame.
 /// Bar-Shalom et al., "Estimation with Applications to Tracking and Navigation", section 6.2.3
-/// (white-noise jerk).
+/// (white-noise jerk, whose density follows the object).
 ///
 /// State in camera axes, six each: pose (the origin's position, rotation), twist, acceleration.
 class TwistFilter {
@@ -24,9 +31,9 @@ class TwistFilter {
 
   /// Moves the state to a later stamp.
   void Predict(StampNs stamp_ns) noexcept;
-  /// Corrects the state with a pose registered at the current stamp, which varies about its time.
+  /// Corrects the state with a pose registered at the current stamp.
   void Update(const PoseCameraFromObject& T_co, const Mat6& pose_covariance,
-              float stamp_variance_s2 = 0.0F) noexcept;
+              const PoseManner& manner = {}) noexcept;
   /// Where the object would be at a stamp if it kept its velocity; does not change the state.
   [[nodiscard]] PoseCameraFromObject Extrapolate(StampNs stamp_ns) const noexcept;
   /// Takes another object frame on the same object for its own: motion stays what it was.
@@ -38,7 +45,11 @@ class TwistFilter {
   [[nodiscard]] const PoseCameraFromObject& T_co() const noexcept { return T_co_; }
   [[nodiscard]] Twist twist() const noexcept { return {twist_.head<3>(), twist_.tail<3>()}; }
   [[nodiscard]] const Mat6& pose_covariance() const noexcept { return covariance_[0][0]; }
-  [[nodiscard]] const Mat6& twist_covariance() const noexcept { return covariance_[1][1]; }
+  [[nodiscard]] Mat6 twist_covariance() const noexcept {
+    return motion_noise_.Of(covariance_[1][1]);
+  }
+  /// With the jerk that this object is found to have.
+  [[nodiscard]] TwistFilterConfig motion() const noexcept;
   [[nodiscard]] StampNs stamp_ns() const noexcept { return stamp_ns_; }
 
  private:
@@ -52,6 +63,7 @@ class TwistFilter {
                    std::array<Vec6, kBlocks>& correction) noexcept;
 
   TwistFilterConfig config_{};
+  MotionNoise motion_noise_;
   StampNs stamp_ns_ = 0;
   float last_step_s_ = 0.0F;
   PoseCameraFromObject T_co_;
