@@ -18,6 +18,12 @@ Mat6 RotatedCovariance(const Mat6& covariance, const Mat3& rotation) noexcept {
   return rotated;
 }
 
+Mat6 ScaledCovariance(const Mat6& covariance, float first, float second) noexcept {
+  Vec6 scale;
+  scale << Vec3::Constant(std::sqrt(first)), Vec3::Constant(std::sqrt(second));
+  return scale.asDiagonal() * covariance * scale.asDiagonal();
+}
+
 Mat6 CovarianceAtPoint(const Mat6& covariance, const Mat3& rotation,
                        const Vec3& to_point_m) noexcept {
   Mat6 jacobian = Mat6::Zero();

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "disflow/geometry/covariance.h"
+
 namespace disflow {
 namespace {
 
@@ -55,10 +57,7 @@ void MotionNoise::Follow(const Vec3& innovation, const Mat3& expected, Part& par
 }
 
 Mat6 MotionNoise::Of(const Mat6& covariance) const noexcept {
-  Vec6 scale;
-  scale << Vec3::Constant(std::sqrt(parts_[0].scatter)),
-      Vec3::Constant(std::sqrt(parts_[1].scatter));
-  return scale.asDiagonal() * covariance * scale.asDiagonal();
+  return ScaledCovariance(covariance, parts_[0].scatter, parts_[1].scatter);
 }
 
 }  // namespace disflow

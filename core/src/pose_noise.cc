@@ -149,9 +149,7 @@ float PoseNoise::of_stamps_s2() const noexcept {
 }
 
 Mat6 PoseNoise::Of(const Mat6& covariance) const noexcept {
-  Vec6 scale;
-  scale << Vec3::Constant(std::sqrt(of_position_)), Vec3::Constant(std::sqrt(of_rotation_));
-  return scale.asDiagonal() * covariance * scale.asDiagonal();
+  return ScaledCovariance(covariance, of_position_, of_rotation_);
 }
 
 }  // namespace disflow

@@ -120,6 +120,7 @@ void TwistFilter::Turn(const Mat3& rotation) noexcept {
 /// The object was hit or let go since the last frame, at an unknown time: its velocity may have
 /// jumped, and what was known of its acceleration is void.
 void TwistFilter::AddImpulse() noexcept {
+  motion_noise_.Restart();
   const Mat6 jump = Diagonal(kImpulseSpeedStd_mps * kImpulseSpeedStd_mps,
                              kImpulseRateStd_rps * kImpulseRateStd_rps);
   const float dt = last_step_s_;
@@ -167,7 +168,6 @@ void TwistFilter::Update(const PoseCameraFromObject& T_co, const Mat6& pose_cova
   if (cholesky.info() != Eigen::Success || !solver.ok() || !innovation.allFinite()) return;
   if (innovation.dot(solver.Solve(innovation)) > kImpulseNis) {
     AddImpulse();
-    motion_noise_.Restart();
   } else if (!manner.complete || manner.stamp_variance_s2 > 0.0F) {
     motion_noise_.Pause();
   } else {

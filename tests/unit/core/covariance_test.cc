@@ -39,6 +39,16 @@ TEST(RotatedCovariance, IsTheCovarianceOfTheRotatedVectors) {
   EXPECT_LT((RotatedCovariance(covariance, kRotation) - expected).norm(), 1e-5F * expected.norm());
 }
 
+TEST(ScaledCovariance, IsTheCovarianceOfTheScaledVectors) {
+  const Mat6 covariance = testing::RandomPositiveDefinite(1);
+  const Mat6 expected =
+      OfMovedDisplacements(covariance, [](const Vec3& first, const Vec3& second, Vec6& moved) {
+        moved.head<3>() = 2.0F * first;
+        moved.tail<3>() = 0.1F * second;
+      });
+  EXPECT_LT((ScaledCovariance(covariance, 4.0F, 0.01F) - expected).norm(), 1e-5F * expected.norm());
+}
+
 TEST(CovarianceAtPoint, IsTheCovarianceOfTheOtherPointsDisplacement) {
   const Mat6 covariance = testing::RandomPositiveDefinite(2);
   const Mat6 expected =

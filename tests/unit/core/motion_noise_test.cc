@@ -136,7 +136,7 @@ TEST(MotionNoise, FirstInnovationAfterAHit_IsComparedWithNone) {
   EXPECT_GT(noise.of_position(), 1.0F);
 }
 
-TEST(MotionNoise, FramesThatTellNothing_ChangeNothingAndAreNotComparedWith) {
+TEST(MotionNoise, InnovationAfterAFrameThatTellsNothing_IsComparedWithNone) {
   MotionNoise noise;
   for (int i = 0; i < 10; ++i) {
     noise.Learn(Vec6(Vec6::Constant(1e-4F)), Expected());

@@ -28,7 +28,7 @@ class MotionNoise {
  private:
   struct Part {
     float jerk = 1.0F;
-    float scatter = 1.0F;         ///< Variance of innovations, of what is expected.
+    float scatter = 1.0F;        ///< Variance of innovations, of what is expected.
     Vec3 before = Vec3::Zero();  ///< The last innovation's direction where noise is white, or 0.
   };
   static void Follow(const Vec3& innovation, const Mat3& expected, Part& part) noexcept;

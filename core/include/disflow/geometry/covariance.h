@@ -13,6 +13,10 @@ namespace disflow {
 /// @param rotation R, from the covariance's axes to the wanted ones.
 [[nodiscard]] Mat6 RotatedCovariance(const Mat6& covariance, const Mat3& rotation) noexcept;
 
+/// The covariance of a vector whose first half has its variances multiplied by one factor, and its
+/// second by another; correlations stay.
+[[nodiscard]] Mat6 ScaledCovariance(const Mat6& covariance, float first, float second) noexcept;
+
 /// The covariance of (position, rotation vector) at another point of the same rigid body, in other
 /// axes. The lever makes position of rotation: dx' = R (dx + dtheta x to_point).
 /// @param rotation R, from the covariance's axes to the wanted ones.
