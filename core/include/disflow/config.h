@@ -105,7 +105,7 @@ struct TwistFilterConfig {
 
 /// When to trust, doubt and give up the pose.
 struct MonitorConfig {
-  int min_samples = 60;
+  int min_samples = 12;
   float degraded_score = 0.6F;
   float degraded_conflict = 0.15F;
   float degraded_std_m = 0.0067F;

@@ -80,7 +80,7 @@ constexpr void VisitFields(ConfigType& config, Visitor&& visitor) {
   field("sampler.min_cos_incidence", sam.min_cos_incidence, 0.0, 0.99, "1",
         "surfaces seen at a smaller cosine between ray and normal are rejected as grazing");
   field("sampler.min_fill", sam.min_fill, 0.05, 1.0, "1",
-        "share of a block's pixels that must carry depth");
+        "share of a block's pixels that must carry depth, less of objects of few blocks");
   field("sampler.max_residual_sigmas", sam.max_residual_sigmas, 0.5, 20.0, "sigma",
         "plane fits that are worse are rejected as flying pixels or creases");
   field("sampler.normal_std_rad", sam.normal_std_rad, 0.01, 3.0, "rad",

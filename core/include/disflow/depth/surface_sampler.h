@@ -96,14 +96,23 @@ class SurfaceSampler {
     auto& sums = passes_.template Begin<typename Grid::Sums>();
     const int without_depth = grid_.Build(depth, interior, config, 0, sums);
     MeasureScales(config);
-    // Fewer blocks than this leave less to register than their better normals bring.
-    constexpr float kFewestBlocks = 150.0F;
-    const float most_px = std::sqrt(static_cast<float>(interior.count()) / kFewestBlocks);
+    const auto count = static_cast<float>(interior.count());
+    const float most_px = std::sqrt(count / kFewestBlocks);
     const auto least_px = static_cast<int>(std::fmin(EdgeForNormals(camera, config), most_px));
-    if (least_px <= grid_.block_px()) return without_depth;
-    (void)grid_.Build(depth, interior, config, least_px, sums);
-    MeasureScales(config);
+    if (least_px > grid_.block_px()) {
+      (void)grid_.Build(depth, interior, config, least_px, sums);
+      MeasureScales(config);
+    }
+    least_pixels_ = LeastPixels(count, config);
     return without_depth;
+  }
+
+  /// How many pixels a block must have. Of a thing of few blocks, most of which reach over its
+  /// outline, smaller parts count: what they tell less, their variance says.
+  [[nodiscard]] float LeastPixels(float interior_count,
+                                  const SamplerConfig& config) const noexcept {
+    const auto area = static_cast<float>(grid_.block_px() * grid_.block_px());
+    return config.min_fill * std::fmin(area, interior_count / kFewestBlocks);
   }
 
   /// Noise by blocks and by squares of 2x2 of them; where it is curvature that grows from one to
@@ -152,8 +161,7 @@ class SurfaceSampler {
                 const WholeWindow& whole, Samples& samples, Counters& counters) noexcept {
     const PixelMoments& own = grid_.block(column, row);
     if (own.n == 0.0F) return;
-    const auto area = static_cast<float>(grid_.block_px() * grid_.block_px());
-    if (own.n < config.min_fill * area) {
+    if (own.n < least_pixels_) {
       ++counters.blocks_sparse;
       return;
     }
@@ -257,6 +265,8 @@ class SurfaceSampler {
     return true;
   }
 
+  /// Fewer leave less to register than what better normals or fuller blocks bring.
+  static constexpr float kFewestBlocks = 150.0F;
   static constexpr float kRipple =
       0.05F;  ///< Third order allowed, as share of the second, squared.
 
@@ -265,6 +275,7 @@ class SurfaceSampler {
   StageScratch<typename Grid::Sums, WholeWindows> passes_;
   SensorNoise noise_;
   const Samples* samples_ = nullptr;  ///< Of the last frame, for SurfaceAt().
+  float least_pixels_ = 0.0F;         ///< Of a block that counts.
   float noise_std_ = 0.0F;
   float blocks_std_ = 0.0F;   ///< By how far the means of blocks scatter; 0 if nothing is known.
   float squares_std_ = 0.0F;  ///< The same of squares of 2x2 blocks.
