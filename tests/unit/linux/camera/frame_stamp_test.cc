@@ -3,13 +3,19 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <limits>
+
 namespace disflow::posix {
 namespace {
 
 TEST(FrameStamp, DaysAndYearsOfUptime_KeepTheirMicroseconds) {
   v4l2_buffer buffer{};
   constexpr std::int64_t kYear_s = 365LL * 24 * 3600;
-  for (const std::int64_t seconds : {std::int64_t{0}, std::int64_t{4'294'967}, 100 * kYear_s}) {
+  // 68 years where seconds have 32 bits.
+  constexpr std::int64_t kMost_s =
+      std::min<std::int64_t>(100 * kYear_s, std::numeric_limits<time_t>::max());
+  for (const std::int64_t seconds : {std::int64_t{0}, std::int64_t{4'294'967}, kMost_s}) {
     buffer.timestamp.tv_sec = static_cast<time_t>(seconds);
     buffer.timestamp.tv_usec = 999'999;
     EXPECT_EQ(StampNsOf(buffer), seconds * 1'000'000'000 + 999'999'000);
