@@ -241,7 +241,6 @@ class Run {
     Config config;
     config.sampler.target_blocks = 150;
     config.registration.iterations = 3;
-    config.monitor.min_samples = 20;
     return config;
   }
   void ResetSeldom() {

@@ -22,7 +22,6 @@ class TrackedObjectTest : public ::testing::Test {
   TrackedObjectTest() : depth_m_(kPixels, kWall_m), labels_(kPixels, 0) {
     Draw(20, 60, kLeft_m, 1);
     Draw(95, 140, kRight_m, 2);
-    options_.config.monitor.min_samples = 20;
   }
 
   void Draw(int u_begin, int u_end, float depth_m, std::uint8_t label) {
