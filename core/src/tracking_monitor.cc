@@ -48,6 +48,7 @@ void TrackingMonitor::Start(const MonitorConfig& config, StampNs stamp_ns) noexc
   last_registered_ns_ = stamp_ns;
   usual_ = {};
   contradicted_ = false;
+  confirmed_ = false;
 }
 
 bool TrackingMonitor::Accepts(const Evidence& evidence, StampNs stamp_ns) const noexcept {
@@ -115,6 +116,7 @@ void TrackingMonitor::Update(const Evidence& evidence, StampNs stamp_ns) noexcep
     }
   } else {
     if (!Doubts(stamp_ns)) usual_.Follow(evidence);
+    confirmed_ = true;
     missed_ = 0;
     searched_ = 0;
     searched_ns_ = 0;
@@ -158,7 +160,8 @@ bool TrackingMonitor::Suspects(const Evidence& evidence) const noexcept {
 }
 
 bool TrackingMonitor::ShouldRestart() const noexcept {
-  return state_ == TrackingState::kLost && Seconds(searched_ns_) > config_.reinitialise_after_s;
+  const bool in_vain = !confirmed_ || Seconds(searched_ns_) > config_.reinitialise_after_s;
+  return state_ == TrackingState::kLost && in_vain;
 }
 
 }  // namespace disflow

@@ -175,12 +175,14 @@ class Tracker {
   void Retrain(Estimate& estimate) noexcept;
   Status Refuse(Status status, const DepthFrame& frame, Estimate& estimate) noexcept;
   Status Finish(Status status, const DepthFrame& frame, Estimate& estimate) noexcept;
+  void StartAnew() noexcept;
   void Report(const PoseCameraFromObject& T_co, Estimate& estimate) const noexcept;
 
   Config config_;
   ConfigIssue config_issue_;
   Counters totals_;
   bool started_ = false;  ///< An object frame exists.
+  bool nearest_in_vain_ = false;
   std::uint8_t reset_counter_ = 0;
   std::uint32_t frame_index_ = 0;  ///< Frames since the object frame was started.
   ImageRepeats repeats_;

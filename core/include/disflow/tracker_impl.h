@@ -84,6 +84,7 @@ Status Tracker<Limits>::Fuse(const DepthFrame& frame, const PoseObjectFromCamera
   } else if (status == Status::kOk) {
     StartField(frame);
     StartAt(frame.stamp_ns, T_oc, kKnownPoseVariance);
+    monitor_.Confirm();
   }
   if (status == Status::kOk) {
     estimate.score = 1.0F;
@@ -99,6 +100,7 @@ template <CapacityProfile Limits>
 void Tracker<Limits>::Reset() noexcept {
   if (started_) ++reset_counter_;
   started_ = false;
+  nearest_in_vain_ = false;
   frame_index_ = 0;
   field_.Start(config_.field);
   model_edges_.Start();
@@ -181,6 +183,7 @@ Status Tracker<Limits>::Observe(const DepthFrame& frame, Estimate& estimate,
   // Whatever lies there may be another object.
   if (!started_ && frame.mask.label != 0 && !frame.mask.given()) return Status::kEmptyMask;
   ModelPrior prior;
+  prior.nearest_in_vain = nearest_in_vain_;
   if (started_) {
     // A mask is then the better guide.
     prior = {!(doubtful && frame.mask.given()),
@@ -305,6 +308,14 @@ Status Tracker<Limits>::Refuse(Status status, const DepthFrame& frame,
   return status;
 }
 
+/// With the nearest surface and the largest in turn until one of them turns out to be something.
+template <CapacityProfile Limits>
+void Tracker<Limits>::StartAnew() noexcept {
+  const bool in_vain = !monitor_.confirmed() && !nearest_in_vain_;
+  Reset();
+  nearest_in_vain_ = in_vain;
+}
+
 template <CapacityProfile Limits>
 Status Tracker<Limits>::Finish(Status status, const DepthFrame& frame,
                                Estimate& estimate) noexcept {
@@ -320,7 +331,7 @@ Status Tracker<Limits>::Finish(Status status, const DepthFrame& frame,
       estimate.has_T_wo = true;
       estimate.T_wo = frame.T_wc * estimate.T_co;
     }
-    if (monitor_.ShouldRestart()) Reset();
+    if (monitor_.ShouldRestart()) StartAnew();
   }
   estimate.reset_counter = reset_counter_;
   totals_.Accumulate(estimate.rejected);

@@ -6,6 +6,7 @@ ablation: switches one part of the method off at a time.
 objects: two and four objects that pass in front of each other, and the time with one and two threads.
 peers: generalised and point-to-plane ICP of PCL beside the tracker, on the same recorded frames.
 cost: instructions per frame and stage, counted by callgrind.
+lot: sequences of which everything is drawn by lot, as many as wanted.
 """
 
 import argparse
@@ -16,6 +17,7 @@ import time
 import ablation
 import accuracy
 import cost
+import lot
 import objects
 import pages
 import peers
@@ -28,6 +30,8 @@ ROOT = pathlib.Path(__file__).resolve().parents[3]
 TUNING_SEEDS = [1, 2, 3]
 FINAL_SEEDS = [11, 12, 13, 14, 15]
 PEER_SEEDS = FINAL_SEEDS[:3]
+TUNING_LOT = list(range(1, 121))
+FINAL_LOT = list(range(201, 321))
 
 
 def parse(words):
@@ -37,21 +41,25 @@ def parse(words):
     parser.add_argument("--out", type=pathlib.Path, help="folder for what is measured [build/WHAT]")
     parser.add_argument("--docs", type=pathlib.Path, default=ROOT / "docs", help="folder of the pages [docs]")
     parser.add_argument("--seeds", type=pages.seeds, metavar="LIST",
-                        help="e.g. 11-15 or 1,4 [accuracy: 11-15, which nothing may be tuned on; peers: 11-13; cost: always 11; "
-                             "others: 1-3]")
-    parser.add_argument("--tune", action="store_true", help="seeds 1-3, for choosing settings; the pages stay as they are")
-    parser.add_argument("--quick", action="store_true", help="seed 1 alone; the pages stay as they are")
+                        help="e.g. 11-15 or 1,4 [accuracy: 11-15, which nothing may be tuned on; peers: 11-13; lot: 201-320; "
+                             "cost: always 11; others: 1-3]")
+    parser.add_argument("--tune", action="store_true", help="seeds 1-3, lot: 1-120, for choosing settings; the pages stay as they are")
+    parser.add_argument("--quick", action="store_true", help="seed 1 alone, lot: 1-12; the pages stay as they are")
     parser.add_argument("--frames", type=int, default=300, help="peers, cost: of every sequence [300]")
     parser.add_argument("--check", action="store_true",
                         help="cost: fail if a median has grown by more than 5 %% over what docs/cost.json says; the pages stay as they are")
     parser.add_argument("--objects", action="append", metavar="FILE.obj", type=pathlib.Path, default=[],
-                        help="accuracy, peers: a scanned mesh in metres, in addition; may be repeated")
+                        help="accuracy, peers: a scanned mesh in metres, in addition; lot: in place of the simulator's own; may be repeated")
     parser.add_argument("--continue", action="store_true", dest="resume",
-                        help="accuracy: of a run that was broken off, keep what the same programs have measured")
+                        help="accuracy, lot: of a run that was broken off, keep what the same programs have measured")
     parser.add_argument("--frames-in", type=pathlib.Path, metavar="DIR", dest="frames_dir",
-                        help="accuracy: keep the frames of every sequence here, 270 MB each, and take them from here the next "
+                        help="accuracy, lot: keep the frames of every sequence here, 270 MB each, and take them from here the next "
                              "time: the same figures in a second where a stereo camera takes a minute. To be removed when the "
                              "simulator changes")
+    parser.add_argument("--set", action="append", metavar="SECTION.NAME=VALUE", default=[], dest="settings",
+                        help="lot: a setting of the tracker other than its default, may be repeated; the pages stay as they are")
+    parser.add_argument("--against", type=pathlib.Path, metavar="FILE.json",
+                        help="lot: results.json of a run before, to say what has changed; the pages stay as they are")
     parser.add_argument("--remark", default="", help="peers: what to say on the page of how it was measured")
     parser.add_argument("--only", action="append", metavar="TEXT", default=[],
                         help="only rows whose name contains this, may be repeated; the pages stay as they are")
@@ -121,25 +129,40 @@ def measure_cost(options, seeds, whole):
     print(text)
 
 
+def measure_lot(options, seeds, whole):
+    tickets = [lot.draw(number, options.objects) for number in seeds]
+    programs = runs.Programs(options.bin, options.out, options.resume, options.frames_dir)
+    results = lot.measure(programs, tickets, options.settings)
+    lot.write_json(options.out / "results.json", results)
+    text = lot.page(tickets, results)
+    if whole and not options.objects:
+        pages.replace_part(options.docs / "results.md", "lot", text)
+    print(text)
+    if options.against:
+        print(lot.compare(tickets, lot.read_json(options.against), results))
+
+
 MEASURES = {
     "accuracy": measure_accuracy,
     "ablation": measure_ablation,
     "objects": measure_objects,
     "peers": measure_peers,
     "cost": measure_cost,
+    "lot": measure_lot,
 }
 # Seeds that nothing was tuned on, where figures are published.
-SEEDS = {"accuracy": FINAL_SEEDS, "peers": PEER_SEEDS}
+SEEDS = {"accuracy": FINAL_SEEDS, "peers": PEER_SEEDS, "lot": FINAL_LOT}
 
 
 def main(words):
     options = parse(words)
     options.out = options.out or ROOT / "build" / options.what
-    seeds = options.seeds or (TUNING_SEEDS if options.tune else SEEDS.get(options.what, TUNING_SEEDS))
+    tuning = TUNING_LOT if options.what == "lot" else TUNING_SEEDS
+    seeds = options.seeds or (tuning if options.tune else SEEDS.get(options.what, tuning))
     if options.quick:
-        seeds = TUNING_SEEDS[:1]
+        seeds = tuning[:12] if options.what == "lot" else tuning[:1]
     # What is measured only in part does not belong on a page.
-    whole = not (options.quick or options.tune or options.only or options.check)
+    whole = not (options.quick or options.tune or options.only or options.check or options.settings or options.against)
     begin = time.monotonic()
     try:
         MEASURES[options.what](options, seeds, whole)

@@ -11,6 +11,7 @@ import re
 import shutil
 import subprocess
 import sys
+import threading
 
 import figures
 
@@ -91,7 +92,7 @@ class Programs:
         elif kept.exists():
             yield ("--sensor", f"replay:{kept}")
         else:
-            part = kept.with_name(f"{kept.name}.{job.stem}.part")
+            part = kept.with_name(f"{kept.name}.{os.getpid()}-{threading.get_ident()}.part")
             shutil.rmtree(part, ignore_errors=True)
             part.parent.mkdir(parents=True, exist_ok=True)
             yield ("--sensor", job.address, "--record", part)

@@ -49,6 +49,15 @@ class Programs(unittest.TestCase):
             self.assertIsNotNone(run["pose_nees"])
             self.assertGreater(data["tracker_bytes"], 100000)
 
+    def test_a_sequence_by_lot_is_tracked_and_compared_with_a_run_before(self):
+        with tempfile.TemporaryDirectory() as folder:
+            results = pathlib.Path(folder) / "results.json"
+            words = ["lot", "--seeds", "3", "--bin", str(BIN), "--out", folder, "--docs", folder]
+            self.assertEqual(main.main(words + ["--set", "field.fuse_budget=290"]), 0)
+            run = json.loads(results.read_text(encoding="utf-8"))["3"]
+            self.assertGreater(run["add_auc"], 90.0)
+            self.assertEqual(main.main(words + ["--against", str(results)]), 0)
+
     def test_kept_frames_give_the_figures_of_simulated_ones(self):
         with tempfile.TemporaryDirectory() as folder:
             root = pathlib.Path(folder)

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "limited_process.h"
+
 namespace disflow::test {
 
 inline constexpr const char* kHostileDepth = "/depth";
@@ -20,7 +22,7 @@ struct HostileBag {
   const char* fault = "";
   std::int64_t length = -1;  ///< Longer than the contents: a hole follows; it takes no room.
   bool with_masks = false;
-  unsigned most_s = 1;
+  unsigned most_s = kMostTime_s;
 };
 
 [[nodiscard]] const std::vector<HostileBag>& HostileBags();

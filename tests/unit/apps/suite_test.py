@@ -15,6 +15,7 @@ import ablation
 import accuracy
 import cost
 import figures
+import lot
 import main
 import objects
 import pages
@@ -168,6 +169,55 @@ class Rows(unittest.TestCase):
             self.assertEqual(asked, {"<=", ">="} if row.mesh and "noise=clean" not in row.scene else set(), row.name)
 
 
+class Lot(unittest.TestCase):
+    def result(self, **of):
+        return {name: 50.0 for name in figures.FIGURES} | of
+
+    def test_a_number_draws_the_same_every_time_and_another_draws_something_else(self):
+        tickets = [lot.draw(number) for number in range(200)]
+        self.assertEqual(tickets, [lot.draw(number) for number in range(200)])
+        self.assertEqual(len({lot.job_of(ticket).stem for ticket in tickets}), 200)
+        self.assertLess(max(len(lot.job_of(ticket).frames) for ticket in tickets), 200)
+
+    def test_all_that_may_differ_is_drawn_about_as_often_as_it_weighs(self):
+        tickets = [lot.draw(number) for number in range(2000)]
+        for what, choices in (("shape", lot.SHAPES), ("motion", lot.MOTIONS), ("noise", lot.NOISES), ("in front", lot.OCCLUDERS)):
+            for value, weight in choices:
+                share = sum(ticket[what] == value for ticket in tickets) / 2000
+                self.assertAlmostEqual(share, weight / sum(w for _, w in choices), delta=0.04, msg=value)
+
+    def test_numbers_that_settings_are_chosen_by_are_not_those_of_the_page(self):
+        self.assertFalse(set(main.TUNING_LOT) & set(main.FINAL_LOT))
+
+    def test_scanned_things_take_the_place_of_drawn_ones(self):
+        ticket = lot.draw(3, [pathlib.Path("/folder/007_tin.obj")])
+        self.assertEqual(ticket["shape"], "007_tin.obj")
+        self.assertTrue(ticket.scene.startswith("obj:/folder/007_tin.obj?motion="))
+
+    def test_what_never_starts_has_lost_all_its_images(self):
+        ticket = lot.draw(3)
+        text = lot.page([ticket], {3: dict(figures.FAILED)})
+        self.assertIn("| all | 1 | 0.0 | 0.0 | 1 | 200.0 | – |", text)
+
+    def test_what_turns_unseen_is_not_judged_by_its_turn(self):
+        ticket = next(t for t in map(lot.draw, range(200)) if t["shape"] == "can")
+        self.assertIn("| all | 1 | 98.0 |", lot.page([ticket], {ticket.number: self.result(add_s_auc=98.0, add_auc=40.0)}))
+
+    def test_a_comparison_names_what_moved_by_more_than_a_point(self):
+        tickets = [t for t in map(lot.draw, range(60)) if t.figure == "add_auc"][:2]
+        before = {t.number: self.result(add_auc=90.0) for t in tickets}
+        now = {tickets[0].number: self.result(add_auc=90.9), tickets[1].number: self.result(add_auc=80.0)}
+        text = lot.compare(tickets, before, now)
+        self.assertIn(f"| {tickets[1].number}: `{tickets[1].scene}` | 90.0 | 80.0 |", text)
+        self.assertNotIn(tickets[0].scene, text)
+
+    def test_results_are_read_as_they_were_written(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "results.json"
+            lot.write_json(file, {7: self.result(), 9: dict(figures.FAILED)})
+            self.assertEqual(lot.read_json(file), {7: self.result(), 9: figures.FAILED})
+
+
 class Peers(unittest.TestCase):
     def results(self, tracker, gicp):
         """@param tracker, gicp ADD-AUC, of GICP by setting."""
@@ -314,7 +364,7 @@ class Pages(unittest.TestCase):
             self.assertEqual(page.read_text(encoding="utf-8"), "all by hand\n")
 
     def test_the_pages_in_the_tree_have_their_markers(self):
-        for name, part in (("results.md", "accuracy"), ("results.md", "peers"), ("method.md", "ablation"), ("performance.md", "cost")):
+        for name, part in (("results.md", "accuracy"), ("results.md", "lot"), ("results.md", "peers"), ("method.md", "ablation"), ("performance.md", "cost")):
             text = (main.ROOT / "docs" / name).read_text(encoding="utf-8")
             self.assertIn(f"<!-- {part}:begin", text)
             self.assertIn(f"<!-- {part}:end -->", text)

@@ -273,6 +273,27 @@ TEST_F(TrackingMonitorTest, NothingInView_TheModelIsKept) {
   EXPECT_FALSE(monitor_.ShouldRestart());
 }
 
+TEST_F(TrackingMonitorTest, WhatNoFrameAgreedWith_ShouldRestartAsSoonAsItIsLost) {
+  for (const Evidence& evidence : {Evidence{}, InVain()}) {
+    monitor_.Start(config_, stamp_ns_);
+    Offer(evidence, config_.lost_after_frames - 1);
+    EXPECT_FALSE(monitor_.ShouldRestart());
+    Offer(evidence);
+    EXPECT_TRUE(monitor_.ShouldRestart());
+  }
+}
+
+TEST_F(TrackingMonitorTest, WhatOneFrameAgreedWithOrWasGiven_IsKept) {
+  Offer(Good());
+  Offer(Evidence{}, 100);
+  EXPECT_FALSE(monitor_.ShouldRestart());
+  monitor_.Start(config_, stamp_ns_);
+  EXPECT_FALSE(monitor_.confirmed());
+  monitor_.Confirm();
+  Offer(Evidence{}, 100);
+  EXPECT_FALSE(monitor_.ShouldRestart());
+}
+
 TEST_F(TrackingMonitorTest, PoseThatMayBeAny_IsRecognisedOnlyBeyondDoubt) {
   Track();
   Offer(InVain(), config_.lost_after_frames);
@@ -305,6 +326,7 @@ TEST_F(TrackingMonitorTest, StampsAtBothEndsOfTime_AreFarApart) {
   constexpr StampNs kFirst_ns = std::numeric_limits<StampNs>::min();
   constexpr StampNs kLast_ns = std::numeric_limits<StampNs>::max();
   monitor_.Start(config_, kFirst_ns);
+  monitor_.Confirm();
   EXPECT_FALSE(monitor_.Doubts(kFirst_ns + kFrame_ns));
   for (const StampNs stamp_ns : {StampNs{-1}, StampNs{0}, StampNs{1}, kLast_ns})
     EXPECT_TRUE(monitor_.Doubts(stamp_ns)) << stamp_ns;

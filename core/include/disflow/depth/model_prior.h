@@ -22,6 +22,8 @@ struct ModelPrior {
   ObjectContact contact;  ///< In the last frame.
   /// How far the object may have moved in the image since its mask was made.
   float motion_px = 0.0F;
+  /// Before it is known: what was nearest, and nothing else, was tried last, in vain.
+  bool nearest_in_vain = false;
 };
 
 }  // namespace disflow

@@ -103,7 +103,10 @@ void Segmenter<Limits>::ChooseSurfaces(const DepthFrame& frame, const SegmenterC
     return;
   }
   if (!prior.known) {
-    const int first = ChooseFirst(frame, config);
+    // Crumbs of noise come and go; what is large stays.
+    const bool take_largest = prior.nearest_in_vain && config.seed_u_px < 0;
+    const int first =
+        take_largest ? LargestThatEnds(votes_.data(), count) : ChooseFirst(frame, config);
     if (first < count) vote(first).chosen = true;
     return;
   }

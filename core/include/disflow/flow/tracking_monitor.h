@@ -28,6 +28,10 @@ class TrackingMonitor {
   };
 
   void Start(const MonitorConfig& config, StampNs stamp_ns) noexcept;
+  /// What was started from is known to be the object: its pose was given.
+  void Confirm() noexcept { confirmed_ = true; }
+  /// Whether that is so, or a frame has agreed with it since.
+  [[nodiscard]] bool confirmed() const noexcept { return confirmed_; }
   /// From now on.
   void Adjust(const MonitorConfig& config) noexcept { config_ = config; }
   /// Whether a registration result is good enough to be believed at all. After frames that were
@@ -57,7 +61,8 @@ class TrackingMonitor {
   /// Whether a pose that may be any is near enough to that to be looked at again.
   [[nodiscard]] bool Suspects(const Evidence& evidence) const noexcept;
   /// Something has been in view for so long without being recognised that the object should be
-  /// started anew. While nothing is in view its model is kept.
+  /// started anew. While nothing is in view its model is kept, unless no frame ever agreed with it:
+  /// what one frame showed alone was no object, and there is nothing to lose.
   [[nodiscard]] bool ShouldRestart() const noexcept;
 
  private:
@@ -84,6 +89,7 @@ class TrackingMonitor {
   TrackingState state_ = TrackingState::kInitialising;
   std::uint8_t quality_ = 0;
   bool contradicted_ = false;
+  bool confirmed_ = false;
   int frames_in_state_ = 0;
   int missed_ = 0;
   int searched_ = 0;
