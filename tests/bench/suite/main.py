@@ -135,7 +135,7 @@ def measure_lot(options, seeds, whole):
     results = lot.measure(programs, tickets, options.settings)
     lot.write_json(options.out / "results.json", results)
     text = lot.page(tickets, results)
-    if whole and not options.objects:
+    if whole and not options.objects and not set(seeds) & set(TUNING_LOT):
         pages.replace_part(options.docs / "results.md", "lot", text)
     print(text)
     if options.against:

@@ -1,13 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The suite's own arithmetic: what counts as a goal that is met, and what is written where."""
 
+import contextlib
 import datetime
+import io
 import json
 import os
 import pathlib
 import sys
 import tempfile
 import unittest
+import unittest.mock
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "tests" / "bench" / "suite"))
 
@@ -186,8 +189,18 @@ class Lot(unittest.TestCase):
                 share = sum(ticket[what] == value for ticket in tickets) / 2000
                 self.assertAlmostEqual(share, weight / sum(w for _, w in choices), delta=0.04, msg=value)
 
-    def test_numbers_that_settings_are_chosen_by_are_not_those_of_the_page(self):
+    def test_numbers_that_settings_are_chosen_by_never_come_onto_the_page(self):
         self.assertFalse(set(main.TUNING_LOT) & set(main.FINAL_LOT))
+        with tempfile.TemporaryDirectory() as folder:
+            page = pathlib.Path(folder) / "results.md"
+            for numbers, is_written in (("5,6", False), ("201", True)):
+                page.write_text("<!-- lot:begin -->\n<!-- lot:end -->\n", encoding="utf-8")
+                measured = {number: self.result() for number in (5, 6, 201)}
+                with unittest.mock.patch.object(lot, "measure", return_value=measured), \
+                        contextlib.redirect_stdout(None), contextlib.redirect_stderr(io.StringIO()):
+                    status = main.main(["lot", "--seeds", numbers, "--docs", folder, "--out", folder])
+                self.assertEqual(status, 0)
+                self.assertEqual("sequences of" in page.read_text(encoding="utf-8"), is_written)
 
     def test_scanned_things_take_the_place_of_drawn_ones(self):
         ticket = lot.draw(3, [pathlib.Path("/folder/007_tin.obj")])
