@@ -13,7 +13,7 @@ import statistics
 import figures
 import pages
 import runs
-from figures import FIGURES
+from figures import FIGURES, Summary
 
 FRAMES = 200
 # What is printed one by one: the share of sequences that went worst.
@@ -91,7 +91,8 @@ def draw(number, meshes=()):
 
 
 def job_of(ticket, settings=()):
-    return runs.Job("lot", ticket.scene, ticket.number, tuple(settings))
+    # Named by its settings, so that --continue does not take it for a run with others.
+    return runs.Job(" ".join(("lot", *settings)), ticket.scene, ticket.number, tuple(settings))
 
 
 def measure(programs, tickets, settings=()):
@@ -104,19 +105,20 @@ def _lost(result):
     return FRAMES if result["lost"] is None else result["lost"]
 
 
-def _middle(results, figure):
-    values = [result[figure] for result in results if result[figure] is not None]
+def _middle(summary, figure):
+    values = summary.values(figure)
     return FIGURES[figure].show(statistics.median(values) if values else None)
 
 
 def _line(name, tickets, results):
     """What a group of sequences came to."""
-    own = [results[ticket.number] for ticket in tickets]
+    summary = Summary({ticket.number: results[ticket.number] for ticket in tickets})
+    own = summary.runs.values()
     scores = [results[ticket.number][ticket.figure] for ticket in tickets]
     inside = [statistics.fmean(result[figure] or 0.0 for result in own) for figure in ("pose_nees", "twist_nees")]
     return [name, str(len(tickets)), f"{statistics.fmean(scores):.1f}", f"{statistics.median(scores):.1f}",
             f"{sum(score < 95 for score in scores)}", f"{statistics.fmean(map(_lost, own)):.1f}",
-            *(_middle(own, figure) for figure in ("e_t", "e_a", "v", "w")), *(f"{share:.0f}" for share in inside)]
+            *(_middle(summary, figure) for figure in ("e_t", "e_a", "v", "w")), *(f"{share:.0f}" for share in inside)]
 
 
 HEAD = ["", "sequences", "AUC mean", "median", "below 95", f"lost of {FRAMES}", "e_t mm", "e_a °", "v cm/s", "ω °/s", "pose inside %",

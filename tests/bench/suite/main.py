@@ -131,6 +131,8 @@ def measure_cost(options, seeds, whole):
 
 def measure_lot(options, seeds, whole):
     tickets = [lot.draw(number, options.objects) for number in seeds]
+    # Read first: it may be the file that is written now.
+    before = lot.read_json(options.against) if options.against else None
     programs = runs.Programs(options.bin, options.out, options.resume, options.frames_dir)
     results = lot.measure(programs, tickets, options.settings)
     lot.write_json(options.out / "results.json", results)
@@ -138,8 +140,8 @@ def measure_lot(options, seeds, whole):
     if whole and not options.objects and not set(seeds) & set(TUNING_LOT):
         pages.replace_part(options.docs / "results.md", "lot", text)
     print(text)
-    if options.against:
-        print(lot.compare(tickets, lot.read_json(options.against), results))
+    if before is not None:
+        print(lot.compare(tickets, before, results))
 
 
 MEASURES = {
@@ -150,6 +152,9 @@ MEASURES = {
     "cost": measure_cost,
     "lot": measure_lot,
 }
+# Seeds to choose by, and how many of them are enough for a look, where they are others than TUNING_SEEDS and one.
+TUNING = {"lot": TUNING_LOT}
+QUICK = {"lot": 12}
 # Seeds that nothing was tuned on, where figures are published.
 SEEDS = {"accuracy": FINAL_SEEDS, "peers": PEER_SEEDS, "lot": FINAL_LOT}
 
@@ -157,10 +162,10 @@ SEEDS = {"accuracy": FINAL_SEEDS, "peers": PEER_SEEDS, "lot": FINAL_LOT}
 def main(words):
     options = parse(words)
     options.out = options.out or ROOT / "build" / options.what
-    tuning = TUNING_LOT if options.what == "lot" else TUNING_SEEDS
+    tuning = TUNING.get(options.what, TUNING_SEEDS)
     seeds = options.seeds or (tuning if options.tune else SEEDS.get(options.what, tuning))
     if options.quick:
-        seeds = tuning[:12] if options.what == "lot" else tuning[:1]
+        seeds = tuning[: QUICK.get(options.what, 1)]
     # What is measured only in part does not belong on a page.
     whole = not (options.quick or options.tune or options.only or options.check or options.settings or options.against)
     begin = time.monotonic()

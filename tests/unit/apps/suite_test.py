@@ -224,6 +224,20 @@ class Lot(unittest.TestCase):
         self.assertIn(f"| {tickets[1].number}: `{tickets[1].scene}` | 90.0 | 80.0 |", text)
         self.assertNotIn(tickets[0].scene, text)
 
+    def test_a_run_before_is_read_before_its_file_is_written_anew(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "results.json"
+            lot.write_json(file, {3: self.result(add_auc=70.0)})
+            said = io.StringIO()
+            with unittest.mock.patch.object(lot, "measure", return_value={3: self.result(add_auc=80.0)}), \
+                    contextlib.redirect_stdout(said), contextlib.redirect_stderr(io.StringIO()):
+                self.assertEqual(main.main(["lot", "--seeds", "3", "--out", folder, "--against", str(file)]), 0)
+            self.assertIn("| 70.0 | 80.0 |", said.getvalue())
+
+    def test_runs_with_other_settings_have_files_of_their_own(self):
+        ticket = lot.draw(3)
+        self.assertNotEqual(lot.job_of(ticket).stem, lot.job_of(ticket, ["field.fuse_budget=290"]).stem)
+
     def test_results_are_read_as_they_were_written(self):
         with tempfile.TemporaryDirectory() as folder:
             file = pathlib.Path(folder) / "results.json"

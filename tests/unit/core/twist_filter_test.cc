@@ -394,10 +394,9 @@ float Squared(const Vec6& error, const Mat6& covariance) {
   return static_cast<float>(e.dot(covariance.cast<double>().ldlt().solve(e)));
 }
 
-/// Means over many runs of the normalised squared errors of (pose, twist) at their end: 25 frames,
-/// after which it turns at 2 rad/s. What is unknown of a twist turns with the object in the filter,
-/// which is right of what its shape leaves open, and not of what a stamp does: that lies along the
-/// twist, and at 40 frames and stamps off by 6 ms the twist's square is 10.
+/// Means over many runs of the normalised squared errors of (pose, twist) at their end. What is
+/// unknown of a twist turns with the object in the filter, which is right of what its shape leaves
+/// open, and not of what a stamp does: that lies along the twist.
 /// @param late_std_s How far stamps are off.
 Vec2 MeanSquaredErrors(float late_std_s) {
   constexpr int kRuns = 150;
@@ -411,7 +410,7 @@ Vec2 MeanSquaredErrors(float late_std_s) {
     TwistFilter filter;
     filter.Start(config, kStart_ns, object.Measured(), PoseCovariance());
     float off_s = 0.0F;
-    for (int i = 1; i <= 25; ++i) {
+    for (int i = 1; i <= 40; ++i) {
       object.Step(Seconds(kFrame_ns));
       off_s = late_s(random);
       const auto off_ns = static_cast<StampNs>(std::lround(1e9F * off_s));
