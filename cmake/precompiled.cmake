@@ -2,7 +2,7 @@
 # Reading Eigen and the standard library is most of what a file of the programs takes to compile; with this it is done once,
 # and what a target's own headers ask for once for every eight files. Not for core, whose instructions are counted as they
 # are by default, and the first not for hal, whose flags are others (cmake/flags.cmake). Not by default: every file shall name
-# what it includes, which nobody notices with these.
+# what it includes, which nobody notices with these. Tests (tests/CMakeLists.txt) have their headers read once in any case.
 add_library(disflow_headers OBJECT ${PROJECT_SOURCE_DIR}/cmake/precompiled.cc)
 target_link_libraries(disflow_headers PRIVATE disflow::core disflow_warnings)
 target_precompile_headers(disflow_headers PRIVATE

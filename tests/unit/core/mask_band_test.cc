@@ -11,6 +11,8 @@
 namespace disflow {
 namespace {
 
+using testing::Covers;
+
 using Mask = PixelMask<200, 100>;
 constexpr PixelBox kGiven{60, 30, 131, 70};
 
@@ -22,9 +24,6 @@ std::unique_ptr<Mask> MakeMask(const PixelBox& box) {
   return mask;
 }
 
-bool Covers(const PixelBox& box, int u, int v) {
-  return u >= box.u_min && u < box.u_max && v >= box.v_min && v < box.v_max;
-}
 PixelBox Grown(const PixelBox& box, int by_px) {
   return {box.u_min - by_px, box.v_min - by_px, box.u_max + by_px, box.v_max + by_px};
 }
