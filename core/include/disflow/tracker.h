@@ -170,6 +170,8 @@ class Tracker {
   [[nodiscard]] float ImageSpeed(const DepthFrame& frame) const noexcept;
   [[nodiscard]] bool TellsNothingNew(const DepthFrame& frame, Estimate& estimate) noexcept;
   Status Bridge(const DepthFrame& frame, Estimate& estimate) noexcept;
+  [[nodiscard]] bool MayGoOn(const PixelAt& px, const DepthFrame& frame) const noexcept;
+  [[nodiscard]] bool IsThinnerThanTolerance(const DepthFrame& frame) const noexcept;
   void FuseObservations(const DepthFrame& frame, Estimate& estimate) noexcept;
   void MoveTo(StampNs stamp_ns, const PoseObjectFromCamera& T_oc) noexcept;
   void Retrain(Estimate& estimate) noexcept;

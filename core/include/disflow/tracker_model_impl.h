@@ -106,17 +106,35 @@ void Tracker<Limits>::ForgetFoundShiftFree(Estimate& estimate) noexcept {
   ForgetAll([](const auto& cluster) { return cluster.shift_free; }, estimate);
 }
 
+/// Whether what a pixel shows may go on as something else: no new surface is taken from there.
+template <CapacityProfile Limits>
+bool Tracker<Limits>::MayGoOn(const PixelAt& px, const DepthFrame& frame) const noexcept {
+  return contact_.merged || overrun_.IsReachedFrom(px.u, px.v, UsableDepth(frame), frame.camera);
+}
+
+/// A thin thing that lies on a table: next to none of it is farther from where its surface goes on
+/// than the mask's outline may be off. Of the mask nothing would be certain.
+template <CapacityProfile Limits>
+bool Tracker<Limits>::IsThinnerThanTolerance(const DepthFrame& frame) const noexcept {
+  int certain = 0;
+  for (const SurfaceSample& sample : samples_)
+    certain += int{!MayGoOn(PixelAt(frame.camera.Project(sample.position_m)), frame)};
+  return certain < config_.monitor.min_samples;
+}
+
 template <CapacityProfile Limits>
 void Tracker<Limits>::FuseObservations(const DepthFrame& frame, Estimate& estimate) noexcept {
   const bool first = frame_index_ == 0;
   const EveryNth some(samples_, first ? samples_.size() : config_.field.fuse_budget, frame_index_);
   const Mat3& R_oc = T_oc_.rotation();
-  const DepthReader depth = UsableDepth(frame);
+  // Then the mask is taken at its word, or there would be no model.
+  const bool by_mask = first && IsThinnerThanTolerance(frame);
+  int decided = 0;
   for (int i = 0; i < some.size(); ++i) {
     SurfaceSample observation = some[i];
     const PixelAt px(frame.camera.Project(observation.position_m));
-    const bool undecided =
-        contact_.merged || overrun_.IsReachedFrom(px.u, px.v, depth, frame.camera);
+    const bool undecided = by_mask ? !frame.mask.Test(px.u, px.v) : MayGoOn(px, frame);
+    decided += int{!undecided};
     observation.position_m = T_oc_ * observation.position_m;
     observation.normal = R_oc * observation.normal;
     if (IsForeign(observation.position_m)) {
@@ -126,6 +144,7 @@ void Tracker<Limits>::FuseObservations(const DepthFrame& frame, Estimate& estima
     // The outcome is in the counters.
     (void)field_.Insert(observation, frame_index_, estimate.rejected, !undecided);
   }
+  if (first) monitor_.Expect(static_cast<float>(decided) / static_cast<float>(some.size()));
   for (const EdgePoint& point : edges_) {
     const EdgePoint moved = T_oc_ * point;
     if (IsForeign(moved.position_m)) continue;

@@ -294,6 +294,20 @@ TEST_F(TrackingMonitorTest, WhatOneFrameAgreedWithOrWasGiven_IsKept) {
   EXPECT_FALSE(monitor_.ShouldRestart());
 }
 
+TEST_F(TrackingMonitorTest, ModelOfAPartOfTheFirstFrame_NeedNotExplainMore) {
+  const Evidence a_fifth = With([](Evidence& e) {
+    e.score = 0.19F;
+    e.inliers = e.points / 6;
+  });
+  EXPECT_FALSE(monitor_.Accepts(a_fifth, stamp_ns_));
+  monitor_.Expect(0.2F);
+  EXPECT_TRUE(monitor_.Accepts(a_fifth, stamp_ns_));
+  EXPECT_FALSE(monitor_.Accepts(With([](Evidence& e) { e.score = 0.1F; }), stamp_ns_));
+  // What explains more from then on is what is usual.
+  Offer(Good(), 100);
+  EXPECT_FALSE(monitor_.Accepts(a_fifth, stamp_ns_));
+}
+
 TEST_F(TrackingMonitorTest, PoseThatMayBeAny_IsRecognisedOnlyBeyondDoubt) {
   Track();
   Offer(InVain(), config_.lost_after_frames);

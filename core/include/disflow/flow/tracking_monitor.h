@@ -30,6 +30,12 @@ class TrackingMonitor {
   void Start(const MonitorConfig& config, StampNs stamp_ns) noexcept;
   /// What was started from is known to be the object: its pose was given.
   void Confirm() noexcept { confirmed_ = true; }
+  /// Only this share of what the first frame showed became part of the model: no more than that can
+  /// be explained by it at first.
+  void Expect(float share) noexcept {
+    usual_.score = share;
+    usual_.inlier_share = share;
+  }
   /// Whether that is so, or a frame has agreed with it since.
   [[nodiscard]] bool confirmed() const noexcept { return confirmed_; }
   /// From now on.
