@@ -9,8 +9,16 @@ target_precompile_headers(disflow_headers PRIVATE
   <Eigen/Cholesky> <Eigen/Core> <Eigen/Eigenvalues> <Eigen/Geometry>
   <algorithm> <array> <cmath> <deque> <filesystem> <fstream> <functional> <map> <memory> <optional> <span> <string> <vector>)
 
-set(DISFLOW_UNITY UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
-set_target_properties(disflow_hal PROPERTIES ${DISFLOW_UNITY})
+# disflow_compile_together(<target> [<file to compile alone>...])
+function(disflow_compile_together target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+  if(ARGN)
+    set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  endif()
+  # A class of a source file may have members of types of its unnamed namespace; GCC takes files read together for headers.
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+endfunction()
+disflow_compile_together(disflow_hal)
 
 function(disflow_precompile folder)
   get_property(targets DIRECTORY ${folder} PROPERTY BUILDSYSTEM_TARGETS)
@@ -19,10 +27,8 @@ function(disflow_precompile folder)
     if(type MATCHES "^(STATIC_LIBRARY|EXECUTABLE)$")
       # As in the precompiled headers.
       target_compile_options(${target} PRIVATE -ffp-contract=off)
-      # A class of a source file may have members of types of its unnamed namespace; GCC takes files read together for headers.
-      target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
       target_precompile_headers(${target} REUSE_FROM disflow_headers)
-      set_target_properties(${target} PROPERTIES ${DISFLOW_UNITY})
+      disflow_compile_together(${target})
     endif()
   endforeach()
   get_property(folders DIRECTORY ${folder} PROPERTY SUBDIRECTORIES)
