@@ -6,6 +6,28 @@
 #include "disflow/config_fields.h"
 
 namespace disflow {
+namespace {
+
+/// Half a pixel or half a region chooses nothing: the other half is named.
+ConfigIssue HalfOfAStart(const ObjectStart& start) noexcept {
+  const auto missing = [](const char* name, int value, int min, int max) {
+    return ConfigIssue{name, static_cast<double>(value), static_cast<double>(min),
+                       static_cast<double>(max)};
+  };
+  const bool has_region =
+      start.roi_x_px > 0 || start.roi_y_px > 0 || start.roi_width_px > 0 || start.roi_height_px > 0;
+  if (start.seed_u_px < 0 && start.seed_v_px >= 0)
+    return missing("segmenter.seed_u_px", start.seed_u_px, 0, 8191);
+  if (start.seed_v_px < 0 && start.seed_u_px >= 0)
+    return missing("segmenter.seed_v_px", start.seed_v_px, 0, 8191);
+  if (has_region && start.roi_width_px == 0)
+    return missing("segmenter.roi_width_px", start.roi_width_px, 1, 8192);
+  if (has_region && start.roi_height_px == 0)
+    return missing("segmenter.roi_height_px", start.roi_height_px, 1, 8192);
+  return {};
+}
+
+}  // namespace
 
 ConfigIssue Validate(const Config& config) noexcept {
   ConfigIssue issue;
@@ -28,6 +50,8 @@ ConfigIssue Validate(const Config& config) noexcept {
   require(config.sampler.max_block_px >= config.sampler.min_block_px,
           {"sampler.max_block_px", static_cast<double>(config.sampler.max_block_px),
            static_cast<double>(config.sampler.min_block_px), 64.0});
+  const ConfigIssue start = HalfOfAStart(config.segmenter);
+  require(start.field == nullptr, start);
   // Samples of the model lie as far apart as they are merged: nearer than that most have no match.
   require(config.registration.match_radius_m >= config.field.merge_radius_m,
           {"registration.match_radius_m", static_cast<double>(config.registration.match_radius_m),

@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 #include <type_traits>
+#include <utility>
 
 #include "changed_config.h"
 #include "disflow/config_fields.h"
@@ -103,8 +104,16 @@ TEST(Config, BothEndsOfEveryRange_AreAllowed) {
     config.sampler.max_block_px = 64;
     config.field.merge_radius_m = 1e-4F;
     config.registration.match_radius_m = 1.0F;
+    config.segmenter.seed_u_px = config.segmenter.seed_v_px = 0;
+    config.segmenter.roi_width_px = config.segmenter.roi_height_px = 1;
     Config lowest = config;
     const std::string name = ChangeField(lowest, i, kMinimum);
+    // The lowest of these says that there is none, which halves of a pixel or region cannot.
+    const bool is_half = name.starts_with("segmenter.seed_") || name.starts_with("segmenter.roi_");
+    if (is_half && name != "segmenter.seed_reach_px") {
+      lowest.segmenter.seed_u_px = lowest.segmenter.seed_v_px = -1;
+      lowest.segmenter.roi_width_px = lowest.segmenter.roi_height_px = 0;
+    }
     EXPECT_EQ(Validate(lowest).field, nullptr) << name;
     if (name == "segmenter.min_range_m") continue;  // must stay below the farthest depth
     Config highest = config;
@@ -124,6 +133,28 @@ TEST(Config, LargestBlockBelowSmallest_IsNamed) {
   config.sampler.min_block_px = 8;
   config.sampler.max_block_px = 7;
   EXPECT_STREQ(Validate(config).field, "sampler.max_block_px");
+}
+
+TEST(Config, HalfOfASeedPixel_OtherHalfIsNamed) {
+  Config config;
+  config.segmenter.seed_u_px = 320;
+  EXPECT_STREQ(Validate(config).field, "segmenter.seed_v_px");
+  std::swap(config.segmenter.seed_u_px, config.segmenter.seed_v_px);
+  EXPECT_STREQ(Validate(config).field, "segmenter.seed_u_px");
+  config.segmenter.seed_u_px = 0;
+  EXPECT_EQ(Validate(config).field, nullptr);
+}
+
+TEST(Config, RegionWithoutExtent_WhatIsMissingIsNamed) {
+  Config config;
+  config.segmenter.roi_x_px = 10;
+  const ConfigIssue issue = Validate(config);
+  EXPECT_STREQ(issue.field, "segmenter.roi_width_px");
+  EXPECT_EQ(issue.min, 1.0);
+  config.segmenter.roi_width_px = 100;
+  EXPECT_STREQ(Validate(config).field, "segmenter.roi_height_px");
+  config.segmenter.roi_height_px = 100;
+  EXPECT_EQ(Validate(config).field, nullptr);
 }
 
 TEST(Config, MatchesNearerThanSamplesLieApart_AreNamed) {
