@@ -8,6 +8,7 @@ a sequence, and there are as many as numbers, so that figures come from sequence
 import dataclasses
 import json
 import random
+import re
 import statistics
 
 import figures
@@ -47,6 +48,11 @@ class Ticket:
         return dict(self.conditions)[what]
 
     @property
+    def shown(self):
+        """The scene, without the folder of a mesh."""
+        return re.sub(r"^obj:[^?]*/", "obj:", self.scene)
+
+    @property
     def figure(self):
         """Which figure says how well the sequence went."""
         return "add_s_auc" if self["shape"] in TURN_UNSEEN else "add_auc"
@@ -84,7 +90,7 @@ def draw(number, meshes=()):
     options += [] if near else [f"distance_m={distance:.2f}"]
     options += [f"edge_mm={edge:.1f}"] if shape in ("rounded-box", "flat-box") else []
     options += [f"uneven_mm={uneven}"] if uneven else []
-    conditions = {"shape": shape.rpartition("/")[2], "motion": motion, "noise": noise, "images/s": rate, "width px": width,
+    conditions = {"shape": shape.rpartition("/")[2].removesuffix(".obj"), "motion": motion, "noise": noise, "images/s": rate, "width px": width,
                   "mask": mask.replace("mask=", ""), "in front": occluder, "on": support, "camera": camera,
                   "stream": stream or "whole", "distance": "near" if near else "0.7 to 1.3 m"}
     return Ticket(number, tuple(conditions.items()), f"{shape}?" + "&".join(option for option in options if option))
@@ -132,10 +138,12 @@ def page(tickets, results):
         values = sorted({ticket[what] for ticket in tickets})
         lines += [_line(f"{what}: {value}", [t for t in tickets if t[what] == value], results) for value in values]
     worst = sorted(tickets, key=lambda ticket: results[ticket.number][ticket.figure])[: max(1, int(WORST * len(tickets)))]
-    rows = [[f"{t.number}: `{t.scene}`", f"{results[t.number][t.figure]:.1f}", f"{results[t.number]['add_s_auc']:.1f}", f"{_lost(results[t.number]):.0f}"]
+    rows = [[f"{t.number}: `{t.shown}`", f"{results[t.number][t.figure]:.1f}", f"{results[t.number]['add_s_auc']:.1f}", f"{_lost(results[t.number]):.0f}"]
             for t in worst]
     numbers = pages.name_seeds([ticket.number for ticket in tickets])
-    return (f"{len(tickets)} sequences of {FRAMES} images, {numbers}. AUC: ADD, of {', '.join(TURN_UNSEEN)} ADD-S. Means of AUC, lost and inside, "
+    unseen = [shape for shape in TURN_UNSEEN if any(ticket["shape"] == shape for ticket in tickets)]
+    judged = f"ADD, of {', '.join(unseen)} ADD-S" if unseen else "ADD"
+    return (f"{len(tickets)} sequences of {FRAMES} images, {numbers}. AUC: {judged}. Means of AUC, lost and inside, "
             "medians of the rest; what never starts has an AUC of 0, all images lost and none inside.\n\n"
             + pages.table(HEAD, lines) + "\nThose that went worst:\n\n" + pages.table(["", "AUC", "ADD-S", "lost"], rows))
 
@@ -146,7 +154,7 @@ def compare(tickets, before, results):
     lines = [_line("before", both, before), _line("now", both, results)]
     gains = {t: results[t.number][t.figure] - before[t.number][t.figure] for t in both}
     moved = sorted((t for t in both if abs(gains[t]) > 1.0), key=gains.get)
-    rows = [[f"{t.number}: `{t.scene}`", f"{before[t.number][t.figure]:.1f}", f"{results[t.number][t.figure]:.1f}"] for t in moved]
+    rows = [[f"{t.number}: `{t.shown}`", f"{before[t.number][t.figure]:.1f}", f"{results[t.number][t.figure]:.1f}"] for t in moved]
     return pages.table(HEAD, lines) + "\nBy more than a point:\n\n" + pages.table(["", "before", "now"], rows)
 
 

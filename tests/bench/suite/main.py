@@ -24,6 +24,7 @@ import peers
 import plots
 import runs
 import sequences
+import things
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 
@@ -32,6 +33,9 @@ FINAL_SEEDS = [11, 12, 13, 14, 15]
 PEER_SEEDS = FINAL_SEEDS[:3]
 TUNING_LOT = list(range(1, 121))
 FINAL_LOT = list(range(201, 321))
+# Of everyday things.
+TUNING_THINGS = TUNING_LOT[:60]
+FINAL_THINGS = list(range(321, 381))
 
 
 def parse(words):
@@ -50,6 +54,9 @@ def parse(words):
                         help="cost: fail if a median has grown by more than 5 %% over what docs/cost.json says; the pages stay as they are")
     parser.add_argument("--objects", action="append", metavar="FILE.obj", type=pathlib.Path, default=[],
                         help="accuracy, peers: a scanned mesh in metres, in addition; lot: in place of the simulator's own; may be repeated")
+    parser.add_argument("--things", action="store_true",
+                        help="lot: everyday things, drawn with OpenSCAD, in place of the simulator's own: six for choosing by (--tune), "
+                             "six others for the page; numbers 1-60 and 321-380")
     parser.add_argument("--continue", action="store_true", dest="resume",
                         help="accuracy, lot: of a run that was broken off, keep what the same programs have measured")
     parser.add_argument("--frames-in", type=pathlib.Path, metavar="DIR", dest="frames_dir",
@@ -63,7 +70,10 @@ def parse(words):
     parser.add_argument("--remark", default="", help="peers: what to say on the page of how it was measured")
     parser.add_argument("--only", action="append", metavar="TEXT", default=[],
                         help="only rows whose name contains this, may be repeated; the pages stay as they are")
-    return parser.parse_args(words)
+    options = parser.parse_args(words)
+    if options.things and (options.what != "lot" or options.objects):
+        parser.error("--things goes with lot, and without --objects")
+    return options
 
 
 def measure_accuracy(options, seeds, whole):
@@ -130,7 +140,10 @@ def measure_cost(options, seeds, whole):
 
 
 def measure_lot(options, seeds, whole):
-    tickets = [lot.draw(number, options.objects) for number in seeds]
+    meshes = options.objects
+    if options.things:
+        meshes = things.draw(things.TUNING if options.tune or options.quick else things.REPORTED, options.out / "meshes")
+    tickets = [lot.draw(number, meshes) for number in seeds]
     # Read first: it may be the file that is written now.
     before = lot.read_json(options.against) if options.against else None
     programs = runs.Programs(options.bin, options.out, options.resume, options.frames_dir)
@@ -138,7 +151,7 @@ def measure_lot(options, seeds, whole):
     lot.write_json(options.out / "results.json", results)
     text = lot.page(tickets, results)
     if whole and not options.objects and not set(seeds) & set(TUNING_LOT):
-        pages.replace_part(options.docs / "results.md", "lot", text)
+        pages.replace_part(options.docs / "results.md", "things" if options.things else "lot", text)
     print(text)
     if before is not None:
         print(lot.compare(tickets, before, results))
@@ -161,9 +174,10 @@ SEEDS = {"accuracy": FINAL_SEEDS, "peers": PEER_SEEDS, "lot": FINAL_LOT}
 
 def main(words):
     options = parse(words)
-    options.out = options.out or ROOT / "build" / options.what
-    tuning = TUNING.get(options.what, TUNING_SEEDS)
-    seeds = options.seeds or (tuning if options.tune else SEEDS.get(options.what, tuning))
+    options.out = options.out or ROOT / "build" / ("things" if options.things else options.what)
+    tuning = TUNING_THINGS if options.things else TUNING.get(options.what, TUNING_SEEDS)
+    final = FINAL_THINGS if options.things else SEEDS.get(options.what, tuning)
+    seeds = options.seeds or (tuning if options.tune else final)
     if options.quick:
         seeds = tuning[: QUICK.get(options.what, 1)]
     # What is measured only in part does not belong on a page.

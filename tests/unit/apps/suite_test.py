@@ -204,8 +204,11 @@ class Lot(unittest.TestCase):
 
     def test_scanned_things_take_the_place_of_drawn_ones(self):
         ticket = lot.draw(3, [pathlib.Path("/folder/007_tin.obj")])
-        self.assertEqual(ticket["shape"], "007_tin.obj")
+        self.assertEqual(ticket["shape"], "007_tin")
         self.assertTrue(ticket.scene.startswith("obj:/folder/007_tin.obj?motion="))
+        text = lot.page([ticket], {3: self.result()})
+        self.assertIn("| 3: `obj:007_tin.obj?motion=", text)
+        self.assertNotIn("/folder", text)
 
     def test_what_never_starts_has_lost_all_its_images(self):
         ticket = lot.draw(3)
@@ -391,7 +394,7 @@ class Pages(unittest.TestCase):
             self.assertEqual(page.read_text(encoding="utf-8"), "all by hand\n")
 
     def test_the_pages_in_the_tree_have_their_markers(self):
-        for name, part in (("results.md", "accuracy"), ("results.md", "lot"), ("results.md", "peers"), ("method.md", "ablation"), ("performance.md", "cost")):
+        for name, part in (("results.md", "accuracy"), ("results.md", "lot"), ("results.md", "things"), ("results.md", "peers"), ("method.md", "ablation"), ("performance.md", "cost")):
             text = (main.ROOT / "docs" / name).read_text(encoding="utf-8")
             self.assertIn(f"<!-- {part}:begin", text)
             self.assertIn(f"<!-- {part}:end -->", text)
