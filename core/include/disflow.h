@@ -121,9 +121,9 @@ typedef struct disflow_frame {
   int32_t width_px;
   int32_t height_px;
   ptrdiff_t stride_bytes; /**< From one row to the next; 0 = rows follow each other. */
-  int32_t depth_format;
-  float unit_m; /**< Metres per unit of DISFLOW_DEPTH_UINT16; 0 = 0.001. */
-  float fx_px;  /**< Pinhole camera without distortion. */
+  int32_t depth_format;   /**< Any other than these two is refused: DISFLOW_INVALID_IMAGE_SIZE. */
+  float unit_m;           /**< Metres per unit of DISFLOW_DEPTH_UINT16; 0 = 0.001. */
+  float fx_px;            /**< Pinhole camera without distortion. */
   float fy_px;
   float cx_px;
   float cy_px;
@@ -260,7 +260,7 @@ int32_t disflow_samples(const disflow_tracker* tracker, disflow_sample_sink sink
 
 /** What the model knows of a point; see disflow::DistanceQuery. */
 typedef struct disflow_distance {
-  disflow_status status; /**< DISFLOW_OUT_OF_BOUNDS if the point is not finite. */
+  disflow_status status; /**< DISFLOW_OUT_OF_BOUNDS: a coordinate is not finite or beyond 1e6 m. */
   int32_t in_bounds;     /**< 1: seen surface is near. */
   float distance_m;      /**< To the surface, positive outside. */
   float gradient[3];     /**< Unit direction in which the distance grows. */

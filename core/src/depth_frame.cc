@@ -2,19 +2,9 @@
 #include "disflow/depth/depth_frame.h"
 
 namespace disflow {
-namespace {
-
-bool HasRigidRotation(const Transform<World, Camera>& T_wc) noexcept {
-  constexpr float kTolerance = 1e-2F;
-  const Mat3 gram = T_wc.rotation().transpose() * T_wc.rotation();
-  return (gram - Mat3::Identity()).cwiseAbs().maxCoeff() < kTolerance &&
-         T_wc.rotation().determinant() > 0.0F;
-}
-
-}  // namespace
 
 bool HasUsablePose(const DepthFrame& frame) noexcept {
-  return frame.has_T_wc && frame.T_wc.IsFinite() && HasRigidRotation(frame.T_wc);
+  return frame.has_T_wc && IsRigid(frame.T_wc);
 }
 
 Status CheckFrame(const DepthFrame& frame, int max_width_px, int max_height_px) noexcept {

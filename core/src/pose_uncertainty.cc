@@ -53,7 +53,9 @@ TurnMoments MomentsOf(float variance_rad2) noexcept {
   const float a = std::min(std::sqrt(3.0F * variance_rad2), std::numbers::pi_v<float>);
   const float a2 = a * a;
   if (a < kSmall_rad) {
-    return {a2 / 3.0F, a2 / 3.0F * (1.0F - a2 / 10.0F), a2 / 3.0F * (1.0F - a2 / 5.0F),
+    // So far that E[angle^2] E[sine^2] is no less than E[angle sine]^2.
+    return {a2 / 3.0F, a2 / 3.0F * (1.0F - a2 / 10.0F * (1.0F - a2 / 28.0F)),
+            a2 / 3.0F * (1.0F - a2 / 5.0F * (1.0F - a2 * 2.0F / 21.0F)),
             a2 * a2 / 20.0F * (1.0F - a2 * 5.0F / 42.0F)};
   }
   const float mean_cos = std::sin(a) / a;

@@ -132,7 +132,7 @@ struct Config {
 struct ConfigIssue {
   const char* field = nullptr;  ///< Dotted name, e.g. "field.cell_size_m"; static storage.
   double value = 0.0;
-  double min = 0.0;  ///< Allowed range, both ends included.
+  double min = 0.0;  ///< Allowed range, both ends included; but max_range_m > min_range_m.
   double max = 0.0;
 
   [[nodiscard]] Status status() const noexcept {

@@ -48,7 +48,8 @@ class FlowSink {
 
 /// Streams the surface samples of the frame that the tracker processed last, in a fixed order.
 /// @param estimate What Process() said of that frame.
-/// @return How many; 0 if the frame was refused.
+/// @return How many; 0 if the frame was refused, showed nothing of the object, or was a
+///     repeated image (kRepeatedImage).
 template <class Limits>
 int StreamFlow(const Tracker<Limits>& tracker, const Estimate& estimate, FlowSink& sink) noexcept {
   if (estimate.samples == 0) return 0;

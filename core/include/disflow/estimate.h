@@ -14,8 +14,11 @@ enum class TrackingState : std::uint8_t {
   kInitialising = 0,  ///< The first frames: the model is being started.
   kTracking = 1,      ///< The pose is registered and trustworthy.
   kDegraded = 2,      ///< Registered with few inliers or a poor fit; use the covariance.
-  kLost = 3,          ///< The pose is only predicted; do not act on it.
-  kRecovered = 4,     ///< First frames after a loss in which the same object frame was found again.
+  /// The pose is only predicted; do not act on it. Also of a frame that is refused for
+  /// anything but its stamp, more than 0.15 s after the last registered one or after an image that
+  /// could not be registered.
+  kLost = 3,
+  kRecovered = 4,  ///< First frames after a loss in which the same object frame was found again.
 };
 
 /// @return Lower-case name, static storage.
@@ -25,7 +28,7 @@ enum class TrackingState : std::uint8_t {
 struct Counters {
   std::uint32_t frames = 0;               ///< Frames given to Process().
   std::uint32_t frames_rejected = 0;      ///< Frames refused with a Status before registration.
-  std::uint32_t frames_unregistered = 0;  ///< Frames whose pose is only predicted.
+  std::uint32_t frames_unregistered = 0;  ///< Frames that were taken but not registered.
   /// Images that were the one before once more. Where the object should have moved meanwhile,
   /// nothing but the prediction is made of them.
   std::uint32_t images_repeated = 0;
@@ -112,7 +115,9 @@ struct Estimate {
   /// Named when its standard deviation exceeds monitor.weak_std_m or weak_std_rad.
   WeakDirection weak;
 
-  std::uint8_t quality = 0;        ///< 0 = not usable, 100 = best.
+  /// 0 = not usable, 100 = best. Of a refused frame: as state, that of the last frame taken until
+  /// the object counts as kLost, then 0.
+  std::uint8_t quality = 0;
   std::uint8_t reset_counter = 0;  ///< Bumped whenever the object frame starts anew.
   float score = 0.0F;              ///< Share of observed samples that the model explains, 0..1.
   float conflict = 0.0F;      ///< Share of the model's visible points that are not there, 0..1.

@@ -13,9 +13,11 @@ enum class [[nodiscard]] Status : std::uint8_t{
     kOk = 0,
 
     // Core: configuration and input frames.
-    kInvalidConfig = 1,       ///< A setting is outside its range, see Validate().
-    kInvalidIntrinsics = 2,   ///< No lens has this focal length or principal point.
-    kInvalidImageSize = 3,    ///< Width, height or stride is zero, negative or inconsistent.
+    kInvalidConfig = 1,      ///< A setting is outside its range, see Validate().
+    kInvalidIntrinsics = 2,  ///< No lens has this focal length or principal point.
+    /// No data; width, height or stride is zero, negative or inconsistent; or the unit_m of a
+    /// 16-bit image is 0, negative or not finite.
+    kInvalidImageSize = 3,
     kImageTooLarge = 4,       ///< The image exceeds the profile's kMaxImageWidth x kMaxImageHeight.
     kMaskSizeMismatch = 5,    ///< Mask and depth image differ in size.
     kEmptyMask = 6,           ///< The mask marks no pixel.

@@ -20,6 +20,7 @@
 #include "disflow/flow/registration.h"
 #include "disflow/flow/tracking_monitor.h"
 #include "disflow/flow/twist_filter.h"
+#include "disflow/late_stamps.h"
 #include "disflow/limits.h"
 #include "disflow/memory/stage_scratch.h"
 #include "disflow/status.h"
@@ -50,16 +51,19 @@ class Tracker {
   /// not ok: for the frame's capture time, or for that of the last frame taken if the frame's does
   /// not increase. The covariances of predictions grow with the time since the pose was last
   /// registered.
-  /// @return Same as estimate.status. A refused frame changes nothing but the counters.
+  /// @return Same as estimate.status. A refused frame changes nothing but the counters; but a clock
+  /// that was set back for good, see LateStamps, starts a new object, as after Reset().
   Status Process(const DepthFrame& frame, Estimate& estimate, StageClock clock = {}) noexcept;
 
   /// Fuses a frame whose pose is known (turntable, robot arm) instead of estimating it. The object
-  /// frame is the caller's. Not to be mixed with Process() on the same object. The estimate's pose
-  /// is the given one, whether or not the object was seen, unless the frame is refused.
+  /// frame is the caller's. Not to be mixed with Process() on the same object. Once an object has
+  /// been seen the estimate's pose is the given one, whether or not it is seen in this frame,
+  /// unless the frame is refused: kInvalidTransform if T_oc is no rigid motion.
   Status Fuse(const DepthFrame& frame, const PoseObjectFromCamera& T_oc, Estimate& estimate,
               StageClock clock = {}) noexcept;
 
-  /// Forgets the object; the next frame starts a new one and bumps reset_counter.
+  /// Forgets the object; the next frame starts a new one, of whatever stamp, and has a higher
+  /// reset_counter.
   void Reset() noexcept;
 
   /// Forgets the object for another one, which the next frame starts where somebody points, in
@@ -177,6 +181,7 @@ class Tracker {
   void Retrain(Estimate& estimate) noexcept;
   Status Refuse(Status status, const DepthFrame& frame, Estimate& estimate) noexcept;
   Status Finish(Status status, const DepthFrame& frame, Estimate& estimate) noexcept;
+  void Forget() noexcept;
   void StartAnew() noexcept;
   void Report(const PoseCameraFromObject& T_co, Estimate& estimate) const noexcept;
 
@@ -189,6 +194,7 @@ class Tracker {
   std::uint32_t frame_index_ = 0;  ///< Frames since the object frame was started.
   ImageRepeats repeats_;
   bool has_stamp_ = false;
+  LateStamps late_;
   StampNs last_stamp_ns_ = 0;
   PoseObjectFromCamera T_oc_;           ///< Latest registered or predicted pose.
   PoseObjectFromCamera T_oc_previous_;  ///< Of the last registered frame.

@@ -38,7 +38,12 @@ Status Tracker<Limits>::Process(const DepthFrame& frame, Estimate& estimate,
   Begin(frame, estimate);
   StageStopwatch stopwatch(clock, estimate);
   Status status = Check(frame);
+  if (status == Status::kStampNotIncreasing && late_.GoOn(frame.stamp_ns)) {
+    Reset();
+    status = Check(frame);
+  }
   if (status != Status::kOk) return Refuse(status, frame, estimate);
+  late_.Forget();
   if (TellsNothingNew(frame, estimate)) return Bridge(frame, estimate);
 
   // Where the object should be now, if it kept its velocity.
@@ -74,7 +79,7 @@ Status Tracker<Limits>::Fuse(const DepthFrame& frame, const PoseObjectFromCamera
                              Estimate& estimate, StageClock clock) noexcept {
   Begin(frame, estimate);
   StageStopwatch stopwatch(clock, estimate);
-  Status status = T_oc.IsFinite() ? Check(frame) : Status::kInvalidTransform;
+  Status status = IsRigid(T_oc) ? Check(frame) : Status::kInvalidTransform;
   if (status != Status::kOk) return Refuse(status, frame, estimate);
   T_oc_ = T_oc;
   // However long ago the last frame was: a known pose is never in doubt.
@@ -98,6 +103,12 @@ Status Tracker<Limits>::Fuse(const DepthFrame& frame, const PoseObjectFromCamera
 
 template <CapacityProfile Limits>
 void Tracker<Limits>::Reset() noexcept {
+  has_stamp_ = false;
+  Forget();
+}
+
+template <CapacityProfile Limits>
+void Tracker<Limits>::Forget() noexcept {
   if (started_) ++reset_counter_;
   started_ = false;
   nearest_in_vain_ = false;
@@ -181,7 +192,10 @@ Status Tracker<Limits>::Observe(const DepthFrame& frame, Estimate& estimate,
   samples_.clear();
   edges_.clear();
   // Whatever lies there may be another object.
-  if (!started_ && frame.mask.label != 0 && !frame.mask.given()) return Status::kEmptyMask;
+  if (!started_ && frame.mask.label != 0 && !frame.mask.given()) {
+    object_mask_.Start(frame.depth.width_px, frame.depth.height_px);
+    return Status::kEmptyMask;
+  }
   ModelPrior prior;
   prior.nearest_in_vain = nearest_in_vain_;
   if (started_) {
@@ -300,6 +314,10 @@ Status Tracker<Limits>::Refuse(Status status, const DepthFrame& frame,
   if (!started_) return status;
   Report(is_late ? T_oc_.Inverse() : Predict(frame), estimate);
   Coast(estimate.stamp_ns, estimate);
+  if (!is_late && monitor_.Doubts(frame.stamp_ns)) {
+    estimate.state = TrackingState::kLost;
+    estimate.quality = 0;
+  }
   // The camera's pose is that of the frame's own stamp.
   if (!is_late && HasUsablePose(frame)) {
     estimate.has_T_wo = true;
@@ -312,7 +330,7 @@ Status Tracker<Limits>::Refuse(Status status, const DepthFrame& frame,
 template <CapacityProfile Limits>
 void Tracker<Limits>::StartAnew() noexcept {
   const bool in_vain = !monitor_.confirmed() && !nearest_in_vain_;
-  Reset();
+  Forget();
   nearest_in_vain_ = in_vain;
 }
 
@@ -331,9 +349,10 @@ Status Tracker<Limits>::Finish(Status status, const DepthFrame& frame,
       estimate.has_T_wo = true;
       estimate.T_wo = frame.T_wc * estimate.T_co;
     }
-    if (monitor_.ShouldRestart()) StartAnew();
   }
+  // What was told was still of the object before.
   estimate.reset_counter = reset_counter_;
+  if (started_ && monitor_.ShouldRestart()) StartAnew();
   totals_.Accumulate(estimate.rejected);
   return status;
 }

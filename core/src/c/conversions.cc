@@ -59,7 +59,10 @@ template Transform<Object, Camera> TransformOf(const disflow_pose&) noexcept;
 DepthFrame FrameOf(const disflow_frame& frame) noexcept {
   constexpr float kMillimetre_m = 0.001F;
   DepthFrame out;
-  out.depth.data = frame.depth;
+  const bool is_known =
+      frame.depth_format == DISFLOW_DEPTH_FLOAT32 || frame.depth_format == DISFLOW_DEPTH_UINT16;
+  // What cannot be read is no image.
+  out.depth.data = is_known ? frame.depth : nullptr;
   out.depth.width_px = frame.width_px;
   out.depth.height_px = frame.height_px;
   out.depth.format =

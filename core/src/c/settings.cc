@@ -62,7 +62,12 @@ Status Apply(const disflow_setting* settings, std::size_t count, Config& config,
     if (status != Status::kOk) return refuse(status, settings[i].name);
   }
   const ConfigIssue issue = Validate(config);
-  return issue.field == nullptr ? Status::kOk : refuse(issue.status(), issue.field);
+  if (issue.field == nullptr) return Status::kOk;
+  const Status status = refuse(issue.status(), issue.field);
+  // Beside the other settings less may be allowed.
+  if (refused != nullptr) refused->min = static_cast<float>(issue.min);
+  if (refused != nullptr) refused->max = static_cast<float>(issue.max);
+  return status;
 }
 
 }  // namespace disflow::c

@@ -262,6 +262,20 @@ TEST(OnItsArc, HasTheMomentsOfATurnedPoint) {
   }
 }
 
+// Shorter series for small angles gave a place that is told better by the angle than at all.
+TEST(OnItsArc, WhateverTheAngle_IsACovariance) {
+  const Vec3 axis = Vec3(1.0F, -2.0F, 3.0F).normalized();
+  const Vec3 radius_m = 0.7F * axis.cross(Vec3::UnitX()).normalized();
+  for (float bound = 0.1F; bound < 3.2F; bound += 0.01F) {
+    Mat6 turn = Mat6::Zero();
+    turn.bottomRightCorner<3, 3>() = bound * bound / 3.0F * axis * axis.transpose();
+    const Eigen::Matrix<double, 6, 6> said =
+        OnItsArc(CovarianceAtPoint(turn, Mat3::Identity(), radius_m)).cast<double>();
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(said);
+    EXPECT_GT(eigen.eigenvalues().minCoeff(), -1e-7 * said.diagonal().maxCoeff()) << bound;
+  }
+}
+
 TEST(OnItsArc, NoTurn_IsMoreThanHalfATurn) {
   Mat6 turn = Mat6::Zero();
   turn(5, 5) = 100.0F;

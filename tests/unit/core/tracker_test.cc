@@ -359,7 +359,7 @@ TEST(TrackerChoose, PlaceOutOfRange_IsRefusedAndChangesNothing) {
   ASSERT_EQ(tracker->Process(TwoThings(Tracking::StampOf(0)), estimate), Status::kOk);
   for (const int wrong : {-2, 8192, std::numeric_limits<int>::max()}) {
     ObjectStart start;
-    start.seed_u_px = wrong;
+    start.seed_u_px = start.seed_v_px = wrong;
     EXPECT_EQ(tracker->Choose(start), Status::kInvalidConfig);
   }
   EXPECT_FALSE(tracker->field().empty());

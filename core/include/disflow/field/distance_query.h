@@ -40,8 +40,9 @@ class DistanceQuerier {
         support_radius_m_(field.coarseness() * support_radius_m),
         spacing_m_(std::fmin(field.config().merge_radius_m, 0.5F * field.config().cell_size_m)) {}
 
-  /// @param x_m Any finite point, object frame.
-  /// @return kNotInitialised if the model is empty, kOutOfBounds if x is not finite.
+  /// @param x_m Any point, object frame.
+  /// @return kNotInitialised if the model is empty, kOutOfBounds if a coordinate of x is not finite
+  ///     or beyond 1e6 m.
   [[nodiscard]] Expected<DistanceQuery> Query(const Vec3& x_m) noexcept {
     Expected<DistanceQuery> result;
     if (field_.empty()) {
