@@ -2,6 +2,7 @@
 // What becomes of the object, and of what is said of it, when the stream of images breaks off.
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <memory>
 
 #include "disflow/tracker.h"
