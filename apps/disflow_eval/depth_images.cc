@@ -36,7 +36,7 @@ double Entry(const fs::path& file, const nlohmann::json& json, const char* key, 
 
 DepthImages::DepthImages(fs::path sequence_dir) : sequence_dir_(std::move(sequence_dir)) {
   const fs::path file = sequence_dir_ / "cam_K.json";
-  const auto json = nlohmann::json::parse(ReadFile(file, kMaxCamera_bytes), nullptr,
+  const auto json = nlohmann::json::parse(ReadRecordedFile(file, kMaxCamera_bytes), nullptr,
                                           /*allow_exceptions=*/false);
   if (!json.is_object()) throw InputError(file, "is no JSON object");
   const auto focal = [&](const char* key) {
@@ -63,7 +63,7 @@ bool DepthImages::Has(int index) const {
 
 DepthFrame DepthImages::Load(int index) {
   const fs::path file = FileOf(index);
-  const std::string bytes = ReadFile(file);
+  const std::string bytes = ReadRecordedFile(file);
   const std::size_t pixel_bytes = Pixels() * sizeof(float);
   std::array<std::uint64_t, 2> size{};
   if (bytes.size() >= kHeaderBytes) std::memcpy(size.data(), bytes.data(), kHeaderBytes);

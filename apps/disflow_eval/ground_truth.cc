@@ -57,7 +57,7 @@ void NoteCut(const fs::path& file, GroundTruth& truth) {
 }
 
 void LoadStamps(const fs::path& file, GroundTruth& truth) {
-  const std::string text = ReadFile(file);
+  const std::string text = ReadRecordedFile(file);
   LineReader lines(text);
   std::optional<std::string_view> stamp;
   for (Line line; lines.Next(line);) {
@@ -79,7 +79,7 @@ void LoadStamps(const fs::path& file, GroundTruth& truth) {
 template <class Parse>
 void LoadFrames(const fs::path& file, std::optional<std::size_t> frames, GroundTruth& truth,
                 Parse parse) {
-  const std::string text = ReadFile(file);
+  const std::string text = ReadRecordedFile(file);
   LineReader lines(text);
   std::size_t count = 0;
   for (Line line; lines.Next(line); ++count) {

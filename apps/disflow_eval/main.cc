@@ -7,10 +7,12 @@
 #include <vector>
 
 #include "comparison.h"
+#include "empty_values.h"
 #include "errors.h"
 #include "evaluation.h"
 #include "fast_ycb.h"
 #include "frame_table.h"
+#include "input_paths.h"
 #include "plots.h"
 #include "report.h"
 #include "summary.h"
@@ -62,6 +64,29 @@ void Print(const std::string& table) {
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
     throw OutputError("standard output", "cannot be written");
   }
+}
+
+/// @return What would destroy an input or another output, see apps::FindClash(); empty if nothing.
+std::string FindClash(const Options& options) {
+  using Paths = std::vector<disflow::apps::NamedPath>;
+  const auto add = [](const char* option, const fs::path& path, Paths& paths) {
+    if (!path.empty()) paths.push_back(disflow::apps::MakeNamedPath(option, path.string()));
+  };
+  Paths outputs;
+  add("--latex", options.latex, outputs);
+  add("--tum", options.tum, outputs);
+  add("--tum-truth", options.tum_truth, outputs);
+  add("--bop", options.bop, outputs);
+  add("--json", options.json, outputs);
+  add("--frames", options.frames, outputs);
+  add("--plots", options.plots, outputs);
+  add("--summary", options.summary, outputs);
+  Paths inputs = disflow::apps::InputPaths("SEQUENCE", options.input.sequence);
+  add("--csv", options.input.csv, inputs);
+  add("--model", options.input.model, inputs);
+  add("--mesh", options.input.mesh, inputs);
+  for (const fs::path& csv : options.compared) add("--compare", csv, inputs);
+  return disflow::apps::FindClash(outputs, inputs);
 }
 
 /// Beside the others, each judged like the first.
@@ -207,6 +232,7 @@ int main(int argc, char** argv) {
   AddFastYcb(app, options.fast_ycb);
   try {
     app.parse(argc, argv);
+    disflow::apps::RefuseEmptyValues(app);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kDone : kWrongUsage;
   }
@@ -215,6 +241,10 @@ int main(int argc, char** argv) {
     std::fprintf(
         stderr,
         "disflow_eval: either SEQUENCE and --csv, or --fast-ycb; see disflow_eval --help\n");
+    return kWrongUsage;
+  }
+  if (const std::string clash = FindClash(options); !clash.empty()) {
+    std::fprintf(stderr, "disflow_eval: %s\n", clash.c_str());
     return kWrongUsage;
   }
   try {

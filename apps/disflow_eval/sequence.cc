@@ -11,6 +11,7 @@
 #include "errors.h"
 #include "model_file.h"
 #include "ply_file.h"
+#include "text_file.h"
 #include "units.h"
 
 namespace disflow::apps {
@@ -32,6 +33,7 @@ void FindBopModel(const fs::path& dir, int id, Sequence& sequence) {
   if (!fs::exists(file)) file = data_set / "models" / name;
   sequence.model_name = file.string();
   if (!fs::exists(file)) return;
+  RequireRegularFile(file);
   constexpr double kMetresPerMillimetre = 1e-3;
   sequence.model = LoadPly(file);
   for (Vec3d& vertex : sequence.model->vertices) vertex *= kMetresPerMillimetre;
@@ -51,6 +53,7 @@ Sequence OpenFolder(const fs::path& dir, const std::string& object) {
   sequence.truth = LoadGroundTruth(dir, object);
   const fs::path file = TruthFolder(dir, object) / "model.obj";
   sequence.model_name = file.string();
+  RequireRegularFile(file);
   if (fs::exists(file)) sequence.model = LoadModel(file);
   if (fs::exists(dir / "cam_K.json")) {
     // Opened when first asked for: most evaluations never look at the images.

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <fstream>
 
+#include "disflow/host/regular_file.h"
 #include "errors.h"
 
 namespace disflow::apps {
@@ -65,6 +66,16 @@ std::string ReadFile(const std::filesystem::path& file, std::size_t max_bytes) {
     throw InputError(file, "is longer than " + std::to_string(max_bytes) + " bytes");
   }
   return text;
+}
+
+std::string ReadRecordedFile(const std::filesystem::path& file, std::size_t max_bytes) {
+  RequireRegularFile(file);
+  return ReadFile(file, max_bytes);
+}
+
+void RequireRegularFile(const std::filesystem::path& file) {
+  const hal::Fault fault = host::CheckRegularFile(file);
+  if (!fault.ok()) throw InputError(fault.message);
 }
 
 void WriteFile(const std::filesystem::path& file, std::string_view text) {

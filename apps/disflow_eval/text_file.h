@@ -16,6 +16,14 @@ inline constexpr std::size_t kMaxFile_bytes = std::size_t{1} << 27U;
 [[nodiscard]] std::string ReadFile(const std::filesystem::path& file,
                                    std::size_t max_bytes = kMaxFile_bytes);
 
+/// The same of a file of a sequence. @throws InputError also if it is no regular file: nobody may
+/// be at the other end of a pipe.
+[[nodiscard]] std::string ReadRecordedFile(const std::filesystem::path& file,
+                                           std::size_t max_bytes = kMaxFile_bytes);
+
+/// @throws InputError if the file is there and is no regular one.
+void RequireRegularFile(const std::filesystem::path& file);
+
 /// Writes through a temporary file beside the target and renames it, so that an earlier result
 /// survives a full disk. Targets that are not regular files (/dev/null, pipes) are written
 /// directly.

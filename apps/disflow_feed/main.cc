@@ -15,6 +15,7 @@
 #include "disflow/posix/monotonic_clock.h"
 #include "disflow/posix/socket_link.h"
 #include "disflow/types.h"
+#include "empty_values.h"
 #include "image_reducer.h"
 
 namespace {
@@ -126,6 +127,8 @@ int Feed(const Arguments& arguments, hal::ByteLink& link) {
 
 int Run(const Arguments& arguments) {
   if (posix::SocketLink::IsSocketAddress(arguments.link)) {
+    const Fault fault = posix::SocketLink::CheckAddress(arguments.link);
+    if (!fault.ok()) return Fail(fault, kWrongUsage);
     posix::SocketLink link(arguments.link);
     return Feed(arguments, link);
   }
@@ -176,6 +179,7 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(0.001, 4e6));
   try {
     app.parse(argc, argv);
+    apps::RefuseEmptyValues(app);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kDone : kWrongUsage;
   }

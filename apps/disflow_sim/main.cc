@@ -13,6 +13,7 @@
 #include "disflow/host/sequence_writer.h"
 #include "disflow/host/simulated_object.h"
 #include "disflow/host/simulation.h"
+#include "empty_values.h"
 
 namespace {
 
@@ -174,11 +175,21 @@ fs::path TruthFolder(const fs::path& out_dir, const std::vector<std::string>& na
   return folder;
 }
 
+Fault OpenWriter(const Arguments& arguments, const std::string& object,
+                 disflow::host::SequenceWriter& writer) {
+  const Fault fault = writer.Open(arguments.out_dir, object, arguments.force);
+  if (fault.status != disflow::Status::kBusy || arguments.force) return fault;
+  return disflow::hal::MakeFault(
+      fault.status,
+      "%s: is not empty; choose another folder, or --force if it is a sequence to be replaced",
+      arguments.out_dir.c_str());
+}
+
 Fault WriteSequence(disflow::host::Simulation& simulation, const Arguments& arguments) {
   disflow::host::SequenceWriter writer;
   const SimulationOptions& options = simulation.options();
   const std::vector<std::string> names = ObjectNames(options);
-  Fault fault = writer.Open(arguments.out_dir, ObjectName(options), arguments.force);
+  Fault fault = OpenWriter(arguments, ObjectName(options), writer);
   // First: a sequence that is cut short can be evaluated as far as it goes.
   for (std::size_t i = 0; i < names.size() && fault.ok(); ++i)
     fault = WriteObj(TruthFolder(arguments.out_dir, names, i) / "model.obj", simulation.mesh(i));
@@ -227,9 +238,11 @@ int main(int argc, char** argv) {
   app.add_option("--mask", arguments.mask_sets,
                  "Mask sets to write: gt, sloppy, leaking, none [gt]")
       ->delimiter(',');
-  app.add_flag("--force", arguments.force, "Replace a sequence that is in OUT_DIR already");
+  app.add_flag("--force", arguments.force,
+               "Replace a sequence that is in OUT_DIR already; anything else is left alone");
   try {
     app.parse(argc, argv);
+    disflow::apps::RefuseEmptyValues(app);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kDone : kWrongUsage;
   }

@@ -97,7 +97,7 @@ std::int64_t HighestNumber(const NumberedName& name) {
 void RemoveOutput(const fs::path& path) {
   std::error_code error;
   if (fs::is_directory(fs::symlink_status(path, error))) {
-    Require(host::RemoveSequence(path));
+    if (host::HoldsSequence(path)) Require(host::RemoveSequence(path));
     if (!fs::is_empty(path, error) && !error) return;
   }
   (void)fs::remove(path, error);

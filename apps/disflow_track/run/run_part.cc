@@ -78,14 +78,15 @@ double RunPart::AgeAt_s(StampNs stamp_ns) noexcept {
 
 std::string RunPart::Finish(std::vector<std::string>& written) {
   for (const auto& csv : trajectories_)
-    if (csv) written.push_back(csv->file().path() + ": trajectory");
+    if (csv && csv->file().error() == 0) written.push_back(csv->file().path() + ": trajectory");
   if (!recording_ || recording_ended_) return {};
   if (queue_ != nullptr) queue_->AwaitWritten();
   recording_ended_ = true;
   if (recording_->has_failed()) return recording_->failure();
   const hal::Fault fault = recording_->Finish();
+  if (!fault.ok()) return fault.message;
   written.push_back(record_path_ + ": " + std::to_string(recording_->frame_count()) + " frames");
-  return fault.ok() ? "" : fault.message;
+  return {};
 }
 
 }  // namespace disflow::apps

@@ -5,13 +5,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <map>
+#include <utility>
 
 #include "disflow/hal/mavlink/telemetry.h"
 #include "disflow/host/open_sensor.h"
 #include "disflow/posix/camera/camera_address.h"
 #include "disflow/posix/mask_source.h"
 #include "disflow/surface_extractor.h"
+#include "empty_values.h"
 #include "program/exit_status.h"
 #include "program/log_target.h"
 #include "settings/choice.h"
@@ -108,7 +111,8 @@ void AddInput(CLI::App& app, Options& options, SettingSources& settings) {
 
 void AddObject(CLI::App& app, Options& options, SettingSources& settings) {
   app.add_option("--roi", settings.roi_px,
-                 "Only this part of the image is looked at; short for segmenter.roi_*")
+                 "Where no mask is given, only this part of the image is looked at; short for "
+                 "segmenter.roi_*")
       ->delimiter(',')
       ->expected(4)
       ->type_name("X,Y,W,H");
@@ -118,7 +122,8 @@ void AddObject(CLI::App& app, Options& options, SettingSources& settings) {
       ->expected(2)
       ->type_name("NEAR,FAR");
   app.add_option("--seed", settings.seed_px,
-                 "A pixel on the object in the first frame; short for segmenter.seed_*")
+                 "Where no mask is given, a pixel on the object in the first frame; short for "
+                 "segmenter.seed_*")
       ->delimiter(',')
       ->expected(2)
       ->type_name("U,V");
@@ -178,6 +183,14 @@ void AddRealtime(CLI::App& app, RealtimeOptions& realtime) {
   app.add_flag("--lock-memory", realtime.lock_memory, "Keep all memory in RAM");
 }
 
+/// CLI::PositiveNumber would name its upper bound with all its 309 digits.
+std::string CheckLength(const std::string& text) {
+  double value_m = 0.0;
+  const bool is_number = CLI::detail::lexical_cast(text, value_m);
+  if (is_number && std::isfinite(value_m) && value_m > 0.0) return {};
+  return text + " is no length; a number of metres above 0 is needed";
+}
+
 void AddOutput(CLI::App& app, Options& options, CommonObjectOptions& objects) {
   app.add_option("--link", options.links, "Send pose, twist and status there; may be repeated")
       ->type_name("URI")
@@ -198,7 +211,7 @@ void AddOutput(CLI::App& app, Options& options, CommonObjectOptions& objects) {
   app.add_option("--mesh-resolution", options.mesh_resolution_m,
                  "Edge of the mesh's sampling cubes in metres; at most 16 fit into a cell "
                  "(field.cell_size_m) [a tenth of it]")
-      ->check(CLI::Validator(CLI::PositiveNumber).description(""))
+      ->check(CheckLength)
       ->type_name("METRES");
   app.add_option("--mesh-picture", objects.files.mesh_picture,
                  "Draw the surface at the end: PNG, from the first camera, right, behind and above")
@@ -244,6 +257,31 @@ void SplitLinks(Options& options) {
                   "the camera's pose comes by --camera-pose or by --link dds:world=, not both");
   }
   options.links.erase(dds);
+}
+
+/// A variable may be set for all runs, also for those that do not look at it.
+bool IsOfTheEnvironment(const CLI::App& app, const char* name) {
+  const CLI::Option* const option = app.get_option(name);
+  const char* const value = std::getenv(option->get_envname().c_str());
+  return value != nullptr && option->results() == std::vector<std::string>{value};
+}
+
+/// What would do nothing is a mistake, whether it was typed or stands in a file.
+void CheckNeeds(const CLI::App& app, const Options& options) {
+  constexpr std::pair<const char*, const char*> kNeeds[] = {{"--camera-world", "--camera-pose"},
+                                                            {"--camera-own-clock", "--camera-pose"},
+                                                            {"--view-hold", "--view"},
+                                                            {"--view-token", "--view"}};
+  for (const auto& [option, needed] : kNeeds) {
+    const bool is_given = app.get_option(option)->count() > 0 && !IsOfTheEnvironment(app, option);
+    if (is_given && app.get_option(needed)->count() == 0)
+      throw Failure(kWrongUsage, std::string(option) + " does nothing without " + needed);
+  }
+  const bool has_mesh =
+      std::any_of(options.objects.begin(), options.objects.end(),
+                  [](const ObjectOptions& object) { return !object.files.mesh.empty(); });
+  if (options.mesh_resolution_m > 0.0 && !has_mesh)
+    throw Failure(kWrongUsage, "--mesh-resolution does nothing without --mesh");
 }
 
 void CheckCameraPose(const Options& options) {
@@ -315,6 +353,7 @@ Options ParseCommandLine(int argc, char** argv, bool& exit_now, const Config& de
   std::reverse(arguments.begin(), arguments.end());  // as the parser wants them
   try {
     app.parse(std::move(arguments));
+    RefuseEmptyValues(app);
   } catch (const CLI::Success& answer) {
     (void)app.exit(answer);
     exit_now = true;
@@ -324,6 +363,7 @@ Options ParseCommandLine(int argc, char** argv, bool& exit_now, const Config& de
   }
   if (options.print_version) return options;
   ReadSettings(app, settings, options);
+  CheckNeeds(app, options);
   CheckResolution(options);
   SplitLinks(options);
   CheckTopicsAreUsed(settings.ros, options);

@@ -20,11 +20,12 @@ void AssignNode(const std::string& file, const std::string& name, const toml::no
     text << integer->get();
     AssignSetting(where, name, {static_cast<double>(integer->get()), true, text.str()}, config);
   } else if (const auto* floating = node.as_floating_point()) {
-    text << floating->get();
+    text << *floating;  // with the point that makes it none: 8.0
     AssignSetting(where, name, {floating->get(), false, text.str()}, config);
   } else {
     text << node.type();
-    Refuse(where, name + " is a " + text.str() + ", a number is needed");
+    const char* const article = node.is_array() ? " is an " : " is a ";
+    Refuse(where, name + article + text.str() + ", a number is needed");
   }
 }
 
@@ -104,7 +105,10 @@ SettingsFile LoadSettings(const std::string& file, Config& config) {
   for (const auto& [section, node] : root) {
     if (section == "object") continue;
     const toml::table* const table = node.as_table();
-    if (table == nullptr) {
+    if (node.is_array_of_tables()) {
+      const std::string name(section.str());
+      Refuse(Where(file, node), "[[" + name + "]] is a list of sections; write [" + name + "]");
+    } else if (table == nullptr) {
       AssignNode(file, std::string(section.str()), node, config);
     } else if (section == "run") {
       for (const auto& [key, value] : *table)

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "disflow/posix/socket_link.h"
 
-#include <netdb.h>
 #include <sys/socket.h>
 #include <sys/un.h>
 
 #include <cstring>
+#include <utility>
 
+#include "disflow/hal/link_address.h"
 #include "errno_fault.h"
+#include "internet_host.h"
 
 namespace disflow::posix {
 namespace {
@@ -15,14 +17,31 @@ namespace {
 constexpr std::string_view kUnix = "unix:";
 constexpr std::string_view kTcp = "tcp:";
 
+/// @param path Of a socket.
+hal::Fault CheckPath(const std::string& path) {
+  constexpr std::size_t kRoom = sizeof(sockaddr_un::sun_path);
+  if (!path.empty() && path.size() < kRoom) return {};
+  return hal::MakeFault(Status::kInvalidUri, "unix:%s: a path of 1 to %zu characters is needed",
+                        path.c_str(), kRoom - 1);
+}
+
+/// Reads HOST:PORT as links everywhere have it.
+hal::Fault ParseEndpoint(const std::string& name, hal::LinkAddress& address) {
+  if (name.find('?') != std::string::npos)
+    return hal::MakeFault(Status::kInvalidUri, "tcp:%s: has no options", name.c_str());
+  const hal::Fault fault = hal::ParseLinkAddress("tcp://" + name, address);
+  if (fault.ok()) return {};
+  return hal::MakeFault(Status::kInvalidUri,
+                        "tcp:%s: HOST:PORT is needed, an IPv6 address in brackets, the port a "
+                        "number from 1 to 65535",
+                        name.c_str());
+}
+
 FileDescriptor ConnectUnix(const std::string& path, hal::Fault& fault) {
+  fault = CheckPath(path);
+  if (!fault.ok()) return {};
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
-  if (path.empty() || path.size() >= sizeof(address.sun_path)) {
-    fault = hal::MakeFault(Status::kInvalidUri, "unix:%s: a path of 1 to %zu characters is needed",
-                           path.c_str(), sizeof(address.sun_path) - 1);
-    return {};
-  }
   std::memcpy(address.sun_path, path.c_str(), path.size() + 1);
   FileDescriptor fd(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
   if (!fd.is_open() ||
@@ -34,23 +53,15 @@ FileDescriptor ConnectUnix(const std::string& path, hal::Fault& fault) {
 }
 
 FileDescriptor ConnectTcp(const std::string& name, hal::Fault& fault) {
-  const std::size_t colon = name.rfind(':');
-  if (colon == std::string::npos || colon == 0 || colon + 1 == name.size()) {
-    fault = hal::MakeFault(Status::kInvalidUri, "tcp:%s: HOST:PORT is needed", name.c_str());
-    return {};
-  }
-  addrinfo hints{};
-  hints.ai_socktype = SOCK_STREAM;
-  addrinfo* found = nullptr;
-  const std::string host = name.substr(0, colon);
-  if (const int error = ::getaddrinfo(host.c_str(), name.c_str() + colon + 1, &hints, &found);
-      error != 0) {
-    fault = hal::MakeFault(Status::kNotFound, "tcp:%s: %s", name.c_str(), ::gai_strerror(error));
-    return {};
-  }
+  hal::LinkAddress address;
+  fault = ParseEndpoint(name, address);
+  AddressList found(nullptr, &::freeaddrinfo);
+  if (fault.ok()) fault = ResolveHost(address, SOCK_STREAM, name.c_str(), found);
+  if (!fault.ok()) return {};
   FileDescriptor connected;
   int error = 0;
-  for (const addrinfo* one = found; one != nullptr && !connected.is_open(); one = one->ai_next) {
+  for (const addrinfo* one = found.get(); one != nullptr && !connected.is_open();
+       one = one->ai_next) {
     FileDescriptor fd(::socket(one->ai_family, one->ai_socktype | SOCK_CLOEXEC, one->ai_protocol));
     if (fd.is_open() && ::connect(fd.get(), one->ai_addr, one->ai_addrlen) == 0) {
       connected = std::move(fd);
@@ -58,7 +69,6 @@ FileDescriptor ConnectTcp(const std::string& name, hal::Fault& fault) {
       error = errno;
     }
   }
-  ::freeaddrinfo(found);
   if (!connected.is_open()) {
     fault = ErrnoFault(Status::kNotFound, name.c_str(), "cannot connect", error);
   }
@@ -69,6 +79,12 @@ FileDescriptor ConnectTcp(const std::string& name, hal::Fault& fault) {
 
 bool SocketLink::IsSocketAddress(std::string_view address) noexcept {
   return address.starts_with(kUnix) || address.starts_with(kTcp);
+}
+
+hal::Fault SocketLink::CheckAddress(const std::string& address) noexcept {
+  if (address.starts_with(kUnix)) return CheckPath(address.substr(kUnix.size()));
+  hal::LinkAddress parsed;
+  return ParseEndpoint(address.substr(kTcp.size()), parsed);
 }
 
 hal::Fault SocketLink::DoOpen() noexcept {

@@ -73,6 +73,69 @@ TEST_F(SimulatedSequence, JudgedByItsAddress_HasTheFiguresOfItsFiles) {
   EXPECT_LT(lines, 21) << "dropped frames have no line";
 }
 
+/// A short sequence in "files" and its trajectory and surface.
+class JudgedSequence : public SimulatedSequence {
+ protected:
+  void SetUp() override {
+    ASSERT_EQ(
+        RunSim({Path("files"), "--frames", "5", "--width", "320", "--height", "180"}, scratch())
+            .exit_status,
+        0);
+    ASSERT_EQ(RunTrack({"--sensor", "replay:" + Path("files"), "--csv", Path("run.csv"), "--mesh",
+                        Path("run.ply"), "--headless"},
+                       scratch())
+                  .exit_status,
+              0);
+  }
+  [[nodiscard]] Outcome Judge(const Arguments& further) const {
+    Arguments arguments = {Path("files"), "--csv", Path("run.csv"), "--mesh", Path("run.ply")};
+    arguments.insert(arguments.end(), further.begin(), further.end());
+    return ChildProcess(DISFLOW_EVAL, arguments, scratch()).Wait();
+  }
+};
+
+TEST_F(JudgedSequence, OutputThatIsAnInput_IsRefusedNamingBothAndLeavesItAsItWas) {
+  std::filesystem::copy_file(Path("run.csv"), Path("other.csv"));
+  std::filesystem::create_symlink("run.csv", Path("link.csv"));
+  for (const auto& [output, input] : {std::pair{"run.csv", "--csv"},
+                                      {"link.csv", "--csv"},
+                                      {"run.ply", "--mesh"},
+                                      {"other.csv", "--compare"},
+                                      {"files/gt/poses.txt", "SEQUENCE"},
+                                      {"files/data.txt", "SEQUENCE"},
+                                      {"files/gt/model.obj", "SEQUENCE"}}) {
+    const std::string before = ReadFile(Path(output));
+    const Outcome outcome = Judge({"--compare", Path("other.csv"), "--json", Path(output)});
+    EXPECT_EQ(outcome.exit_status, 2) << output << outcome.err;
+    EXPECT_NE(outcome.err.find("--json " + Path(output) + " would overwrite an input, " + input),
+              std::string::npos)
+        << outcome.err;
+    EXPECT_TRUE(ReadFile(Path(output)) == before) << output;
+  }
+}
+
+TEST_F(JudgedSequence, OneNameForTwoOutputs_IsRefusedBeforeAnythingIsWritten) {
+  const Outcome outcome = Judge({"--json", Path("out"), "--tum", Path("out")});
+  EXPECT_EQ(outcome.exit_status, 2) << outcome.err;
+  EXPECT_NE(outcome.err.find("--tum and --json would both write " + Path("out")), std::string::npos)
+      << outcome.err;
+  EXPECT_FALSE(std::filesystem::exists(Path("out")));
+  EXPECT_EQ(Judge({"--json", "/dev/null", "--tum", "/dev/null"}).exit_status, 0);
+  // Beside the sequence's own files there is room for results, the second time as well.
+  for (int i = 0; i < 2; ++i)
+    EXPECT_EQ(Judge({"--json", Path("files/run.json")}).exit_status, 0) << i;
+}
+
+TEST_F(JudgedSequence, EmptyValue_IsRefusedByTheOptionsName) {
+  for (const char* option : {"--json", "--frames", "--plots", "--summary", "--tum", "--tum-truth",
+                             "--bop", "--latex", "--model"}) {
+    const Outcome outcome = Judge({option, ""});
+    EXPECT_EQ(outcome.exit_status, 2) << option;
+    EXPECT_NE(outcome.err.find(option + std::string(": its value is empty")), std::string::npos)
+        << outcome.err;
+  }
+}
+
 TEST_F(SimulatedSequence, CutShortByAKill_IsEvaluatedAsFarAsItGoes) {
   ChildProcess simulator(DISFLOW_SIM, {Path("cut"), "--object", "bottle", "--frames", "30000"},
                          scratch());

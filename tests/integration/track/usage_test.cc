@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <utility>
+
 #include "child_process.h"
 #include "scratch_folder.h"
 
@@ -124,9 +127,74 @@ INSTANTIATE_TEST_SUITE_P(
                     FaultyFile{"OutOfRange", "[field]\ncell_size_m = 3.0\n", "0.001 to 2 m"},
                     FaultyFile{"NotANumber", "[field]\ncell_size_m = nan\n", "out of range"},
                     FaultyFile{"NotWhole", "[field]\nfreeze_after = 1.5\n", "whole number"},
+                    FaultyFile{"WholeWithAPoint", "[field]\nfreeze_after = 8.0\n",
+                               "field.freeze_after = 8.0 is not a whole number"},
+                    FaultyFile{"SectionAsAList", "\n[[run]]\nframes = 3\n",
+                               "[[run]] is a list of sections; write [run]"},
+                    FaultyFile{"List", "[field]\ncell_size_m = [1]\n", "is an array"},
                     FaultyFile{"Twice", "[field]\n[field]\n", "field"},
                     FaultyFile{"NoToml", "[field]\n[[[\n", "Error"}),
     [](const testing::TestParamInfo<FaultyFile>& test) { return test.param.name; });
+
+class UsageTest : public ScratchFolderTest {};
+
+TEST_F(UsageTest, EmptyValue_IsRefusedByTheOptionsName) {
+  for (const char* option : {"--csv", "--mesh", "--record", "--flow", "--mesh-picture", "--config",
+                             "--mask-stream", "--view", "--view-token", "--link", "--set"}) {
+    const Outcome outcome = RunTrack({"--sensor", kSensor, option, ""}, scratch());
+    EXPECT_EQ(outcome.exit_status, 2) << option;
+    EXPECT_NE(outcome.err.find(option + std::string(": its value is empty")), std::string::npos)
+        << outcome.err;
+  }
+  const Outcome outcome = RunSim({Path("out"), "--motion", ""}, scratch());
+  EXPECT_EQ(outcome.exit_status, 2);
+  EXPECT_NE(outcome.err.find("--motion: its value is empty"), std::string::npos) << outcome.err;
+}
+
+TEST_F(UsageTest, OptionThatDoesNothingWithoutAnother_IsRefusedNamingBoth) {
+  const std::pair<Arguments, const char*> cases[] = {
+      {{"--camera-world", "ned"}, "--camera-world does nothing without --camera-pose"},
+      {{"--camera-own-clock"}, "--camera-own-clock does nothing without --camera-pose"},
+      {{"--view-hold"}, "--view-hold does nothing without --view"},
+      {{"--view-token", "a-long-enough-token"}, "--view-token does nothing without --view"},
+      {{"--mesh-resolution", "0.002"}, "--mesh-resolution does nothing without --mesh"}};
+  for (const auto& [further, said] : cases) {
+    Arguments arguments = {"--sensor", kSensor};
+    arguments.insert(arguments.end(), further.begin(), further.end());
+    const Outcome outcome = RunTrack(arguments, scratch());
+    EXPECT_EQ(outcome.exit_status, 2) << said;
+    EXPECT_NE(outcome.err.find(said), std::string::npos) << outcome.err;
+  }
+  WriteFile(Path("run.toml"), "[run]\nview_hold = true\n");
+  EXPECT_EQ(RunTrack({"--sensor", kSensor, "--config", Path("run.toml")}, scratch()).exit_status,
+            2);
+}
+
+TEST_F(UsageTest, ResolutionOfZero_IsRefusedInAFewWords) {
+  const Outcome outcome =
+      RunTrack({"--sensor", kSensor, "--mesh", Path("a.ply"), "--mesh-resolution", "0"}, scratch());
+  EXPECT_EQ(outcome.exit_status, 2);
+  EXPECT_NE(outcome.err.find("--mesh-resolution: 0 is no length"), std::string::npos)
+      << outcome.err;
+  EXPECT_LT(outcome.err.size(), 200U) << outcome.err;
+}
+
+TEST_F(UsageTest, FolderThatIsNoSequence_IsNotReplacedEvenWithForce) {
+  std::filesystem::create_directories(Path("mine/gt"));
+  WriteFile(Path("mine/gt/thesis.txt"), "mine");
+  const Arguments sim = {Path("mine"), "--frames", "1", "--width", "64", "--height", "48"};
+  Outcome outcome = RunSim(sim, scratch());
+  EXPECT_EQ(outcome.exit_status, 4);
+  EXPECT_NE(outcome.err.find("--force"), std::string::npos) << outcome.err;
+  Arguments forced = sim;
+  forced.emplace_back("--force");
+  outcome = RunSim(forced, scratch());
+  EXPECT_EQ(outcome.exit_status, 4);
+  EXPECT_NE(outcome.err.find(Path("mine") + ": is no sequence"), std::string::npos) << outcome.err;
+  EXPECT_EQ(ReadFile(Path("mine/gt/thesis.txt")), "mine");
+  forced[0] = Path("sequence");
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(RunSim(forced, scratch()).exit_status, 0) << i;
+}
 
 class SettingsTest : public ScratchFolderTest {};
 

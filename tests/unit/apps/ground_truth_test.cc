@@ -2,6 +2,7 @@
 #include "ground_truth.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "errors.h"
 #include "scratch_dir.h"
@@ -58,6 +59,14 @@ TEST_F(GroundTruthTest, NoFolderNoPosesOrEmptyPoses_AreRefused) {
   EXPECT_PRED_FORMAT2(IsSubstring, "poses.txt: cannot be opened", Refusal());
   dir_.Write("gt/poses.txt", "\n\n");
   EXPECT_PRED_FORMAT2(IsSubstring, "holds no pose", Refusal());
+}
+
+TEST_F(GroundTruthTest, PipeInPlaceOfAFile_IsRefusedWithoutBeingOpened) {
+  dir_.Write("gt/model.obj", "");
+  ASSERT_EQ(::mkfifo((dir_.path() / "gt/poses.txt").c_str(), 0600), 0);
+  EXPECT_PRED_FORMAT2(IsSubstring, "poses.txt: is a pipe", Refusal());
+  ASSERT_EQ(::mkfifo((dir_.path() / "data.txt").c_str(), 0600), 0);
+  EXPECT_PRED_FORMAT2(IsSubstring, "data.txt: is a pipe", Refusal());
 }
 
 TEST_F(GroundTruthTest, TruncatedLine_IsRefusedWithItsNumber) {

@@ -2,6 +2,7 @@
 #include "sequence.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "errors.h"
 #include "scratch_dir.h"
@@ -83,6 +84,14 @@ TEST(SequenceTest, DroppedFrames_AreNoFramesOfTheSequence) {
   ASSERT_EQ(sequence.truth.stamps_s.size(), sequence.truth.T_ct.size());
   const double last_s = sequence.truth.stamps_s.back() - sequence.truth.stamps_s.front();
   EXPECT_GT(last_s, (static_cast<double>(sequence.truth.T_ct.size()) - 1) / 30.0 + 0.01);
+}
+
+TEST(SequenceTest, PipeInPlaceOfTheModel_IsRefusedWithoutBeingOpened) {
+  const ScratchDir dir;
+  dir.Write("gt/poses.txt", "0 0 0.5 0 0 1 0\n");
+  ASSERT_EQ(::mkfifo((dir.path() / "gt/model.obj").c_str(), 0600), 0);
+  EXPECT_PRED_FORMAT2(testing::IsSubstring, "model.obj: is a pipe",
+                      MessageOf<InputError>([&] { (void)OpenSequence(dir.path().string()); }));
 }
 
 TEST(SequenceTest, WrongAddresses_AreRefusedBySayingWhatIsAllowed) {

@@ -2,6 +2,7 @@
 #include "disflow/host/replay_sensor.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <array>
@@ -49,6 +50,12 @@ class ReplaySensorTest : public RecordedSequence {
     }
     EXPECT_EQ(sensor.counters().frames, static_cast<unsigned>(kFrames - 1));
     EXPECT_EQ(sensor.counters().corrupt, 1U);
+  }
+
+  /// With nobody at its other end.
+  void PutPipe(const fs::path& file) const {
+    fs::remove(file);
+    ASSERT_EQ(::mkfifo(file.c_str(), 0600), 0);
   }
 
   [[nodiscard]] std::string DepthWithHeader(std::uint64_t width, std::uint64_t height) const {
@@ -303,9 +310,29 @@ TEST_F(ReplaySensorTest, MissingDepth_LosesThatFrameOnly) {
   ExpectLost(2, Status::kCorrupt, "2.float");
 }
 
-TEST_F(ReplaySensorTest, DepthOfAnotherSize_LosesThatFrameOnly) {
+TEST_F(ReplaySensorTest, DepthOfAnotherSize_LosesThatFrameOnlyAndTheCameraFileIsNamed) {
   Overwrite(depth(2), DepthWithHeader(48, 64));
-  ExpectLost(2, Status::kCorrupt, "2.float");
+  ExpectLost(2, Status::kCorrupt, "2.float: is 48 x 64 pixels, cam_K.json says 64 x 48");
+}
+
+TEST_F(ReplaySensorTest, PipeInPlaceOfADepthImage_IsNotOpenedAndLosesThatFrameOnly) {
+  PutPipe(depth(2));
+  ExpectLost(2, Status::kCorrupt, "2.float: is a pipe");
+}
+
+TEST_F(ReplaySensorTest, PipeInPlaceOfAMask_IsNotOpenedAndLosesThatFrameOnly) {
+  PutPipe(mask(4));
+  ExpectLost(4, Status::kCorrupt, "box_4.png: is a pipe");
+}
+
+TEST_F(ReplaySensorTest, PipeInPlaceOfATable_IsNotOpenedAndNamed) {
+  for (const char* name : {"cam_K.json", "data.txt", "T_wc.txt"}) {
+    const std::string text = TextOf(path() / name);
+    PutPipe(path() / name);
+    ExpectRefused(Status::kCorrupt, {name, "is a pipe"});
+    fs::remove(path() / name);
+    Overwrite(path() / name, text);
+  }
 }
 
 TEST_F(ReplaySensorTest, DepthOfZeroSize_LosesThatFrameOnly) {

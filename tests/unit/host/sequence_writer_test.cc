@@ -100,6 +100,29 @@ TEST_F(RecordedSequence, NotEmptyFolder_IsKeptUnlessOverwritten) {
   EXPECT_EQ(TextOf(path() / "notes.txt"), "mine") << "only the sequence may be removed";
 }
 
+TEST_F(RecordedSequence, FolderThatIsNoSequence_IsNotOverwrittenAndKeepsAll) {
+  for (const char* name : {"cam_K.json", "data.txt"}) {
+    const std::string text = TextOf(path() / name);
+    fs::remove(path() / name);
+    SequenceWriter writer;
+    const hal::Fault fault = writer.Open(path(), "box", true);
+    EXPECT_EQ(fault.status, Status::kBusy) << name;
+    EXPECT_NE(std::string(fault.message).find("is no sequence"), std::string::npos)
+        << fault.message;
+    EXPECT_TRUE(fs::exists(depth(0)) && fs::exists(mask(0)) && fs::exists(path() / "gt")) << name;
+    Overwrite(path() / name, text);
+  }
+}
+
+TEST_F(RecordedSequence, SequenceWithoutAFrameYet_IsOverwritten) {
+  const fs::path begun = path() / "begun";
+  for (int i = 0; i < 2; ++i) {
+    SequenceWriter writer;
+    const hal::Fault fault = writer.Open(begun, "box", true);
+    EXPECT_TRUE(fault.ok()) << fault.message;
+  }
+}
+
 TEST_F(RecordedSequence, FrameOfAnotherSize_IsRefused) {
   SequenceWriter writer;
   ASSERT_TRUE(writer.Open(path(), "box", true).ok());

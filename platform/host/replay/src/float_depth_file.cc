@@ -9,12 +9,15 @@
 #include <system_error>
 
 #include "disflow/host/image_limits.h"
+#include "disflow/host/regular_file.h"
 
 namespace disflow::host {
 
 static_assert(std::endian::native == std::endian::little, "the format is little endian");
 
 hal::Fault ReadFloatDepth(const std::filesystem::path& file, FloatImage& image) {
+  const hal::Fault fault = CheckRegularFile(file);
+  if (!fault.ok()) return fault;
   std::error_code error;
   const std::uintmax_t bytes = std::filesystem::file_size(file, error);
   std::ifstream stream(file, std::ios::binary);

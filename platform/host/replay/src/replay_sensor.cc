@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <exception>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "disflow/host/image_limits.h"
 #include "disflow/host/png_image.h"
+#include "disflow/host/sequence_layout.h"
 #include "float_depth_file.h"
 #include "sequence_index.h"
 
@@ -37,6 +39,7 @@ struct ReplaySensor::State {
 
   [[nodiscard]] Fault FindSize();
   [[nodiscard]] Fault CheckMasks() const;
+  [[nodiscard]] Fault SizeFault(const RecordedFrame& source, const DepthView& depth) const;
   [[nodiscard]] Fault ReadFrame(const RecordedFrame& source, DepthFrame& frame);
   [[nodiscard]] Fault ReadDepth(const RecordedFrame& source, DepthFrame& frame);
   [[nodiscard]] Fault ReadMasks(const RecordedFrame& source, DepthFrame& frame);
@@ -85,6 +88,15 @@ Fault ReplaySensor::State::CheckMasks() const {
                         options.dir.c_str(), index.masked_objects, width_px, height_px);
 }
 
+/// Says where the size is from that the image does not have.
+Fault ReplaySensor::State::SizeFault(const RecordedFrame& source, const DepthView& depth) const {
+  // Its name alone, since a Fault has no room for two long paths.
+  const std::string other =
+      index.camera.width_px > 0 ? std::string(kCameraFile) + " says" : "the first is";
+  return hal::MakeFault(Status::kCorrupt, "%s: is %d x %d pixels, %s %d x %d", source.depth.c_str(),
+                        depth.width_px, depth.height_px, other.c_str(), width_px, height_px);
+}
+
 Fault ReplaySensor::State::ReadFrame(const RecordedFrame& source, DepthFrame& frame) {
   frame = DepthFrame{};
   frame.camera = source.camera.value_or(index.camera.camera);
@@ -92,11 +104,8 @@ Fault ReplaySensor::State::ReadFrame(const RecordedFrame& source, DepthFrame& fr
   frame.has_T_wc = source.has_T_wc;
   frame.T_wc = source.T_wc;
   Fault fault = ReadDepth(source, frame);
-  if (fault.ok() && (frame.depth.width_px != width_px || frame.depth.height_px != height_px)) {
-    fault = hal::MakeFault(Status::kCorrupt, "%s: is %d x %d pixels, the sequence is %d x %d",
-                           source.depth.c_str(), frame.depth.width_px, frame.depth.height_px,
-                           width_px, height_px);
-  }
+  if (fault.ok() && (frame.depth.width_px != width_px || frame.depth.height_px != height_px))
+    fault = SizeFault(source, frame.depth);
   if (fault.ok() && index.masked_objects > 0) fault = ReadMasks(source, frame);
   return AsLostFrame(fault);
 }

@@ -8,6 +8,8 @@
 #include <fstream>
 #include <system_error>
 
+#include "disflow/host/regular_file.h"
+
 namespace disflow::host {
 namespace {
 
@@ -30,6 +32,7 @@ std::vector<std::string_view> SplitFields(std::string_view line) {
 }  // namespace
 
 hal::Fault ReadTextFile(const fs::path& file, std::uintmax_t max_bytes, std::string& text) {
+  if (const hal::Fault fault = CheckRegularFile(file); !fault.ok()) return fault;
   std::error_code error;
   const std::uintmax_t size = fs::file_size(file, error);
   if (error) {

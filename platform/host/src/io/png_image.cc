@@ -13,6 +13,7 @@
 #include <system_error>
 
 #include "disflow/host/image_limits.h"
+#include "disflow/host/regular_file.h"
 #include "file_output.h"
 
 namespace disflow::host {
@@ -212,11 +213,14 @@ hal::Fault WritePng(const fs::path& path, const Raster& raster) {
 }  // namespace
 
 hal::Fault ReadGrayPng(const fs::path& path, GrayImage& image) {
+  // Every caller reads a file of a recording.
+  const hal::Fault fault = CheckRegularFile(path);
+  if (!fault.ok()) return fault;
   const FilePointer file(std::fopen(path.c_str(), "rb"));
   if (file == nullptr) return OpenFault(path);
   std::error_code error;
   const std::uintmax_t bytes = fs::file_size(path, error);
-  // Of what has no length, such as a pipe, none is expected.
+  // Of what has lost its length meanwhile none is expected.
   return Read(file.get(), path.c_str(), error ? UINTMAX_MAX : bytes, image);
 }
 

@@ -50,9 +50,25 @@ std::string FormatPose(const Transform<A, B, double>& pose) {
 
 }  // namespace
 
+bool HoldsSequence(const fs::path& dir) {
+  std::error_code error;
+  if (!fs::is_regular_file(dir / kDataFile, error)) return false;
+  if (fs::is_regular_file(dir / kCameraFile, error)) return true;
+  // The camera's file comes with the first frame.
+  const bool has_no_stamp = fs::file_size(dir / kDataFile, error) == 0;
+  return has_no_stamp && fs::is_empty(dir / kDepthFolder, error) && !error;
+}
+
 hal::Fault RemoveSequence(const fs::path& dir) {
-  for (const char* name : {kDepthFolder, kMaskFolder, kInfraredFolder, kTruthFolder, kCameraFile,
-                           kDataFile, kWorldPoseFile}) {
+  if (!HoldsSequence(dir)) {
+    return hal::MakeFault(Status::kBusy,
+                          "%s: is no sequence (%s and %s) that could be replaced; choose another "
+                          "folder",
+                          dir.c_str(), kCameraFile, kDataFile);
+  }
+  // Last what tells a sequence, so that what could not be removed can be removed later.
+  for (const char* name : {kDepthFolder, kMaskFolder, kInfraredFolder, kTruthFolder, kWorldPoseFile,
+                           kCameraFile, kDataFile}) {
     std::error_code error;
     fs::remove_all(dir / name, error);
     if (error) {

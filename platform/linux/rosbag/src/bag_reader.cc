@@ -7,6 +7,7 @@
 #include <fstream>
 #include <string_view>
 
+#include "disflow/host/regular_file.h"
 #include "mcap_reader.h"
 #include "ros1_reader.h"
 #include "sqlite_reader.h"
@@ -30,6 +31,7 @@ Fault OpenAs(const std::filesystem::path& file, const std::string& topic,
 
 Fault OpenBagFile(const std::filesystem::path& file, const std::string& topic,
                   std::unique_ptr<BagReader>& reader) {
+  if (const Fault fault = host::CheckRegularFile(file); !fault.ok()) return fault;
   std::array<char, 16> start{};
   std::ifstream stream(file, std::ios::binary);
   if (!stream) {

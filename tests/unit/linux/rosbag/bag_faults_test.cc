@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <cstring>
 
@@ -32,6 +34,12 @@ TEST_F(BagSensorTest, BagOfRos1WithAnyDamagedByte_GivesFramesOfTheRightSizeOrIsS
     for (const Played& played : PlayAll(sensor))
       EXPECT_TRUE(!played.fault.ok() || played.pixels.size() == PixelsOf(0).size()) << at;
   }
+}
+
+TEST_F(BagSensorTest, PipeInPlaceOfARecording_IsNamedWithoutBeingOpened) {
+  const fs::path pipe = dir_.path() / "pipe.mcap";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  ExpectRefused(Options(pipe), Status::kCorrupt, "pipe.mcap: is a pipe");
 }
 
 TEST_F(BagSensorTest, ScaleOfMetres_IsRefused) {

@@ -111,6 +111,7 @@ TEST_F(NumberedNamesTest, OldOutputs_AreRemovedBeyondTheCountAndNothingElse) {
   for (const char* folder : {"rec-000001", "rec-000002", "rec-000004", "rec-000000"}) {
     fs::create_directories(fs::path(Path(folder)) / "depth");
     test::WriteFile(Path(std::string(folder) + "/data.txt"), "x");
+    test::WriteFile(Path(std::string(folder) + "/cam_K.json"), "x");
   }
   test::WriteFile(Path("rec-000002/notes.txt"), "mine");
   options_.objects[0].files.csv = Path("run-{n}.csv");
@@ -127,6 +128,15 @@ TEST_F(NumberedNamesTest, OldOutputs_AreRemovedBeyondTheCountAndNothingElse) {
   EXPECT_EQ(test::ReadFile(Path("rec-000002/notes.txt")), "mine");
   EXPECT_FALSE(fs::exists(Path("rec-000002/depth")));
   EXPECT_TRUE(fs::exists(Path("rec-000004/depth")));
+}
+
+TEST_F(NumberedNamesTest, FolderOfSuchANameThatIsNoRecording_IsLeftAlone) {
+  fs::create_directories(Path("rec-000001/depth"));
+  test::WriteFile(Path("rec-000001/depth/mine"), "mine");
+  fs::create_directory(Path("rec-000002"));
+  options_.record = Path("rec-{n}");
+  RemoveOldOutputs(options_, 1);
+  EXPECT_EQ(test::ReadFile(Path("rec-000001/depth/mine")), "mine");
 }
 
 TEST_F(NumberedNamesTest, LinkInPlaceOfARecording_IsRemovedAndNotFollowed) {

@@ -2,6 +2,8 @@
 #include "files/output_names.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <filesystem>
 
@@ -112,6 +114,54 @@ TEST_F(OutputNamesTest, NameOfAMeshThatIsNotCompleteYet_IsTaken) {
   files().mesh = Path("run.ply");
   files().csv = Path("run.ply.part");
   EXPECT_NE(Refusal(), "");
+}
+
+TEST_F(OutputNamesTest, OutputThatIsAnInput_IsRefusedNamingBoth) {
+  files().csv = Path("run.toml");
+  options_.settings_files = {Path("run.toml")};
+  EXPECT_EQ(Refusal(), "--csv " + Path("run.toml") +
+                           " would overwrite an input, the settings file " + Path("run.toml") +
+                           "; give it a name of its own");
+  options_.settings_files.clear();
+  EXPECT_EQ(Refusal(), "");
+  test::WriteFile(Path("run.toml"), "an OBJ, a recording, a key");
+  for (const std::string& sensor :
+       {"sim:box+obj:" + Path("run.toml") + "?frames=3", "rosbag:" + Path("run.toml"),
+        Path("run.toml") + "?depth=/depth", "v4l2:/dev/video0?intrinsics=" + Path("run.toml")}) {
+    options_.sensor = sensor;
+    EXPECT_NE(Refusal().find("would overwrite an input, --sensor "), std::string::npos) << sensor;
+  }
+  options_.sensor = "sim:box";
+  options_.mask_stream = "file:" + Path("./run.toml");
+  EXPECT_NE(Refusal().find("--mask-stream"), std::string::npos);
+  options_.mask_stream.clear();
+  options_.links = {"udp://localhost:1?key=" + Path("run.toml")};
+  EXPECT_NE(Refusal().find("--link"), std::string::npos);
+}
+
+TEST_F(OutputNamesTest, FilesOfTheRecordingThatIsReplayed_AreRefusedAndOthersBesideThemNot) {
+  fs::create_directories(Path("seq/depth"));
+  fs::create_directories(Path("seq/gt"));
+  test::WriteFile(Path("seq/data.txt"), "");
+  options_.sensor = "replay:" + Path("seq") + "?mask=none";
+  for (const char* name : {"seq/data.txt", "seq/gt/poses.txt", "seq/depth/0.float", "seq/depth"}) {
+    files().csv = Path(name);
+    EXPECT_NE(Refusal().find(Path("seq")), std::string::npos) << name;
+  }
+  files().csv = Path("seq/run.csv");
+  EXPECT_EQ(Refusal(), "");
+}
+
+TEST_F(OutputNamesTest, Pipe_TakesAnyNumberOfOutputs) {
+  ASSERT_EQ(::mkfifo(Path("pipe").c_str(), 0600), 0);
+  files().csv = files().mesh = Path("pipe");
+  EXPECT_EQ(Refusal(), "");
+  // As /dev/stdout is one when another program reads from this.
+  int ends[2] = {};
+  ASSERT_EQ(::pipe(ends), 0);
+  files().csv = files().mesh = "/proc/self/fd/" + std::to_string(ends[1]);
+  EXPECT_EQ(Refusal(), "");
+  EXPECT_EQ(::close(ends[0]) + ::close(ends[1]), 0);
 }
 
 TEST_F(OutputNamesTest, NullDevice_TakesAnyNumberOfOutputs) {

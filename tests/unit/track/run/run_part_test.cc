@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "run/run_part.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
+#include <csignal>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -151,6 +155,22 @@ TEST_F(RunPartTest, RecordingThatFailsBehindTheQueue_IsSaidOnceWithOneOfTheNextF
   EXPECT_NO_THROW(Record(part));
   std::vector<std::string> written;
   EXPECT_EQ(part.Finish(written), "") << "it has been said";
+}
+
+TEST_F(RunPartTest, TrajectoryThatFailed_IsNotListedAsWritten) {
+  (void)std::signal(SIGPIPE, SIG_IGN);
+  options_.objects.resize(2);
+  options_.objects[0].files.csv = Path("pipe");
+  options_.objects[1].files.csv = Path("whole.csv");
+  ASSERT_EQ(::mkfifo(Path("pipe").c_str(), 0600), 0);
+  const int reader = ::open(Path("pipe").c_str(), O_RDONLY | O_NONBLOCK);
+  RunPart part(options_, sensor_, nullptr);
+  ASSERT_EQ(::close(reader), 0);
+  EXPECT_THROW(part.WriteRow(0, {}), Failure);
+  EXPECT_NO_THROW(part.WriteRow(1, {}));
+  std::vector<std::string> written;
+  EXPECT_EQ(part.Finish(written), "");
+  EXPECT_EQ(written, std::vector<std::string>{Path("whole.csv") + ": trajectory"});
 }
 
 TEST_F(RunPartTest, LastFrameThatFailsBehindTheQueue_IsSaidAtTheEnd) {

@@ -18,7 +18,8 @@ struct GrayImage {
   std::vector<std::uint16_t> pixels;
 };
 
-/// Reads a grey PNG. Colour, palette and transparency are refused, as depth and masks have none.
+/// Reads a grey PNG. Colour, palette and transparency are refused, as depth and masks have none,
+/// and so is what is no regular file, see CheckRegularFile().
 /// @param image Reused, so that reading a sequence does not allocate again; undefined on error.
 /// @return kNotFound, kTruncated, kCorrupt, kUnsupported or kIoError, naming the file.
 [[nodiscard]] hal::Fault ReadGrayPng(const std::filesystem::path& file, GrayImage& image);

@@ -32,8 +32,9 @@ class SequenceWriter {
 
   /// Creates the folder, or uses an empty one.
   /// @param object Used in the names of the mask files.
-  /// @param overwrite A sequence that is already there is removed first; other files stay.
-  /// @return kPermissionDenied, kIoError or kBusy (something is there already), naming the folder.
+  /// @param overwrite A sequence that is already there is removed first, see RemoveSequence().
+  /// @return kPermissionDenied, kIoError or kBusy (something is there already; with `overwrite`:
+  /// something that is no sequence), naming the folder.
   [[nodiscard]] hal::Fault Open(const std::filesystem::path& dir, std::string_view object,
                                 bool overwrite);
 
@@ -106,7 +107,11 @@ class SequenceWriter {
   LineFile world_poses_;
 };
 
+/// Whether the folder is a sequence as SequenceWriter writes it; also one that has no frame yet.
+[[nodiscard]] bool HoldsSequence(const std::filesystem::path& dir);
+
 /// Removes everything that a sequence consists of, and nothing else that may be in its folder.
+/// @return kIoError, or kBusy if the folder is no sequence: its gt/ or depth/ is then somebody's.
 [[nodiscard]] hal::Fault RemoveSequence(const std::filesystem::path& dir);
 
 }  // namespace disflow::host

@@ -17,6 +17,8 @@ class SocketLink final : public hal::ByteLink {
   explicit SocketLink(std::string_view address) : name_(address) {}
 
   [[nodiscard]] static bool IsSocketAddress(std::string_view address) noexcept;
+  /// Before anything is opened. @return kInvalidUri with what is wrong.
+  [[nodiscard]] static hal::Fault CheckAddress(const std::string& address) noexcept;
 
  private:
   hal::Fault DoOpen() noexcept override;
