@@ -15,8 +15,7 @@ enum class TrackingState : std::uint8_t {
   kTracking = 1,      ///< The pose is registered and trustworthy.
   kDegraded = 2,      ///< Registered with few inliers or a poor fit; use the covariance.
   /// The pose is only predicted; do not act on it. Also of a frame that is refused for
-  /// anything but its stamp, more than 0.15 s after the last registered one or after an image that
-  /// could not be registered.
+  /// anything but its stamp, more than 0.15 s after the last registered one.
   kLost = 3,
   kRecovered = 4,  ///< First frames after a loss in which the same object frame was found again.
 };

@@ -314,7 +314,7 @@ Status Tracker<Limits>::Refuse(Status status, const DepthFrame& frame,
   if (!started_) return status;
   Report(is_late ? T_oc_.Inverse() : Predict(frame), estimate);
   Coast(estimate.stamp_ns, estimate);
-  if (!is_late && monitor_.Doubts(frame.stamp_ns)) {
+  if (!is_late && monitor_.IsOverdue(frame.stamp_ns)) {
     estimate.state = TrackingState::kLost;
     estimate.quality = 0;
   }

@@ -53,7 +53,11 @@ class TrackingMonitor {
   /// Whether the prediction for a frame is doubtful: the last frames could not be registered, or
   /// none came for a long time.
   [[nodiscard]] bool Doubts(StampNs stamp_ns) const noexcept {
-    return missed_ > 0 || SpanNs(last_registered_ns_, stamp_ns) > kLongGap_ns;
+    return missed_ > 0 || IsOverdue(stamp_ns);
+  }
+  /// Whether nothing has been registered for a long time, whatever the reason.
+  [[nodiscard]] bool IsOverdue(StampNs stamp_ns) const noexcept {
+    return SpanNs(last_registered_ns_, stamp_ns) > kLongGap_ns;
   }
   /// Whether the last pose, though followed, may have slid: the image contradicts it.
   [[nodiscard]] bool contradicted() const noexcept { return contradicted_; }
