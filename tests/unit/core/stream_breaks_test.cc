@@ -12,12 +12,13 @@ namespace disflow::testing {
 namespace {
 
 using MicroTracker = Tracker<profiles::Micro>;
-constexpr StampNs kFrame_ns = 33'333'333;
-constexpr StampNs kStart_ns = 500'000'000'000;
 
 /// A tracker before a thing at rest, the clock of whose camera is set as one likes.
 class StreamBreaks : public ::testing::Test {
  protected:
+  static constexpr StampNs kFrame_ns = 33'333'333;
+  static constexpr StampNs kStart_ns = 500'000'000'000;
+
   Estimate GiveAt(StampNs stamp_ns) {
     DepthFrame frame = thing_.frame();
     frame.stamp_ns = stamp_ns;
