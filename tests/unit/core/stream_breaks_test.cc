@@ -105,7 +105,6 @@ TEST_F(StreamBreaks, FramesThatAreRefusedForLong_AreNoTracking) {
 
 TEST_F(StreamBreaks, FrameThatEndsTheSearch_IsStillOfTheObjectBefore) {
   StampNs now_ns = Track(kStart_ns);
-  DepthScene empty(0.0F);
   Estimate before;
   Estimate estimate;
   for (int i = 0; i < 600 && !tracker_->field().empty(); ++i) {
