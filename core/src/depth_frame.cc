@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "disflow/depth/depth_frame.h"
 
+#include "disflow/geometry/rigid_motion.h"
+
 namespace disflow {
 
 bool HasUsablePose(const DepthFrame& frame) noexcept {

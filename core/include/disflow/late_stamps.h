@@ -13,22 +13,9 @@ class LateStamps {
 
   /// A frame is not newer than the last one that was taken.
   /// @return Whether such frames have gone on for so long that time goes on from theirs.
-  [[nodiscard]] bool GoOn(StampNs stamp_ns) noexcept {
-    if (frames_ == 0 || stamp_ns <= latest_ns_) {
-      frames_ = 0;
-      first_ns_ = stamp_ns;
-    }
-    latest_ns_ = stamp_ns;
-    if (frames_ < kFewest) ++frames_;
-    return frames_ == kFewest && SpanNs(first_ns_, stamp_ns) > kPatience_ns;
-  }
+  [[nodiscard]] bool GoOn(StampNs stamp_ns) noexcept;
 
  private:
-  /// A clock that is put right again costs the frames between: an object is found again within 2 s.
-  static constexpr StampNs kPatience_ns = 2'000'000'000;
-  /// Single wrong stamps are no clock.
-  static constexpr std::uint8_t kFewest = 10;
-
   StampNs first_ns_ = 0;
   StampNs latest_ns_ = 0;
   std::uint8_t frames_ = 0;

@@ -3,6 +3,7 @@
 
 #include "disflow/config_fields.h"
 #include "disflow/depth/edge_sampler.h"
+#include "disflow/depth/eroded_mask.h"
 #include "disflow/depth/seen_space_impl.h"
 #include "disflow/depth/segmenter_choice_impl.h"
 #include "disflow/depth/segmenter_impl.h"
@@ -11,6 +12,7 @@
 #include "disflow/field/distance_field_training.h"
 #include "disflow/field/known_surface.h"
 #include "disflow/flow/model_agreement.h"
+#include "disflow/geometry/rigid_motion.h"
 #include "disflow/stage_stopwatch.h"
 #include "disflow/tracker.h"
 #include "disflow/tracker_model_impl.h"
@@ -338,6 +340,8 @@ template <CapacityProfile Limits>
 Status Tracker<Limits>::Finish(Status status, const DepthFrame& frame,
                                Estimate& estimate) noexcept {
   estimate.status = status;
+  // Before the object may be given up: what is told is still of it.
+  estimate.reset_counter = reset_counter_;
   if (status != Status::kOk) ++estimate.rejected.frames_unregistered;
   if (started_) {
     Report(T_oc_.Inverse(), estimate);
@@ -349,10 +353,8 @@ Status Tracker<Limits>::Finish(Status status, const DepthFrame& frame,
       estimate.has_T_wo = true;
       estimate.T_wo = frame.T_wc * estimate.T_co;
     }
+    if (monitor_.ShouldRestart()) StartAnew();
   }
-  // What was told was still of the object before.
-  estimate.reset_counter = reset_counter_;
-  if (started_ && monitor_.ShouldRestart()) StartAnew();
   totals_.Accumulate(estimate.rejected);
   return status;
 }

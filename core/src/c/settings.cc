@@ -64,9 +64,11 @@ Status Apply(const disflow_setting* settings, std::size_t count, Config& config,
   const ConfigIssue issue = Validate(config);
   if (issue.field == nullptr) return Status::kOk;
   const Status status = refuse(issue.status(), issue.field);
-  // Beside the other settings less may be allowed.
-  if (refused != nullptr) refused->min = static_cast<float>(issue.min);
-  if (refused != nullptr) refused->max = static_cast<float>(issue.max);
+  if (refused != nullptr) {
+    // Beside the other settings less may be allowed.
+    refused->min = static_cast<float>(issue.min);
+    refused->max = static_cast<float>(issue.max);
+  }
   return status;
 }
 

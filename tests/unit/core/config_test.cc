@@ -108,11 +108,10 @@ TEST(Config, BothEndsOfEveryRange_AreAllowed) {
     config.segmenter.roi_width_px = config.segmenter.roi_height_px = 1;
     Config lowest = config;
     const std::string name = ChangeField(lowest, i, kMinimum);
-    // The lowest of these says that there is none, which halves of a pixel or region cannot.
-    const bool is_half = name.starts_with("segmenter.seed_") || name.starts_with("segmenter.roi_");
-    if (is_half && name != "segmenter.seed_reach_px") {
-      lowest.segmenter.seed_u_px = lowest.segmenter.seed_v_px = -1;
-      lowest.segmenter.roi_width_px = lowest.segmenter.roi_height_px = 0;
+    // The lowest of these says that there is none, which half a pixel or region cannot.
+    if (name.starts_with("segmenter.seed_") || name.starts_with("segmenter.roi_")) {
+      static_cast<ObjectStart&>(lowest.segmenter) = {};
+      ChangeField(lowest, i, kMinimum);
     }
     EXPECT_EQ(Validate(lowest).field, nullptr) << name;
     if (name == "segmenter.min_range_m") continue;  // must stay below the farthest depth

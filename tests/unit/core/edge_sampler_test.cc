@@ -11,6 +11,7 @@
 #include <random>
 #include <vector>
 
+#include "disflow/depth/eroded_mask.h"
 #include "disflow/depth/pixel_mask.h"
 #include "disflow/depth/whole_windows_impl.h"
 #include "disflow/limits.h"

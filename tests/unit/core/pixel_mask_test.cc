@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "disflow/depth/depth_frame.h"
+#include "disflow/depth/eroded_mask.h"
 
 namespace disflow {
 namespace {

@@ -3,7 +3,7 @@
 # Eigen/Geometry with the standard headers that they include, which cannot be left out while the interface has vectors
 # and poses. The bound on core's own share is what it is now; what needs more belongs into a .cc or an
 # _impl.h file.
-set(max_own_lines 7086)
+set(max_own_lines 7025)
 set(not_for_users Eigen/Dense Eigen/Eigenvalues disflow/tracker_impl.h disflow/depth/segmenter_impl.h disflow/depth/segmenter_choice_impl.h
   disflow/depth/model_gate.h disflow/depth/edge_sampler.h disflow/flow/pose_search.h disflow/flow/turn_search.h)
 
