@@ -67,10 +67,8 @@ class Inputs {
   void AddIfThere(const fs::path& path) {
     if (IsThere(path)) Add(path);
   }
-  /// They lie beside the folders of scenes.
   void AddBopModels(const fs::path& dir) {
-    for (const char* const name : {"models_eval", "models"})
-      AddIfThere((fs::absolute(dir) / ".." / ".." / name).lexically_normal());
+    for (const fs::path& folder : host::BopModelFolders(dir)) AddIfThere(folder);
   }
   void AddLooseImages(const fs::path& dir) {
     std::vector<host::NumberedFile> images;

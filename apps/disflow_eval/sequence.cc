@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "depth_images.h"
+#include "disflow/host/sequence_layout.h"
 #include "disflow/host/simulated_object.h"
 #include "disflow/host/simulation.h"
 #include "errors.h"
@@ -25,12 +26,12 @@ void RequireOk(const hal::Fault& fault) {
   if (!fault.ok()) throw InputError(fault.message);
 }
 
-/// The data set's own model, in millimetres; it lies beside the folders of scenes.
+/// The data set's own model, in millimetres.
 void FindBopModel(const fs::path& dir, int id, Sequence& sequence) {
-  const fs::path data_set = (fs::absolute(dir) / ".." / "..").lexically_normal();
+  const auto [for_judging, all] = host::BopModelFolders(dir);
   const std::string name = Format("obj_%06d.ply", id);
-  fs::path file = data_set / "models_eval" / name;
-  if (!fs::exists(file)) file = data_set / "models" / name;
+  fs::path file = for_judging / name;
+  if (!fs::exists(file)) file = all / name;
   sequence.model_name = file.string();
   if (!fs::exists(file)) return;
   RequireRegularFile(file);

@@ -73,6 +73,8 @@ def parse(words):
     options = parser.parse_args(words)
     if options.things and (options.what != "lot" or options.objects):
         parser.error("--things goes with lot, and without --objects")
+    # What has seeds, a folder and a part of a page of its own.
+    options.bed = "things" if options.things else options.what
     return options
 
 
@@ -151,7 +153,7 @@ def measure_lot(options, seeds, whole):
     lot.write_json(options.out / "results.json", results)
     text = lot.page(tickets, results)
     if whole and not options.objects and not set(seeds) & set(TUNING_LOT):
-        pages.replace_part(options.docs / "results.md", "things" if options.things else "lot", text)
+        pages.replace_part(options.docs / "results.md", options.bed, text)
     print(text)
     if before is not None:
         print(lot.compare(tickets, before, results))
@@ -166,20 +168,19 @@ MEASURES = {
     "lot": measure_lot,
 }
 # Seeds to choose by, and how many of them are enough for a look, where they are others than TUNING_SEEDS and one.
-TUNING = {"lot": TUNING_LOT}
-QUICK = {"lot": 12}
+TUNING = {"lot": TUNING_LOT, "things": TUNING_THINGS}
+QUICK = {"lot": 12, "things": 12}
 # Seeds that nothing was tuned on, where figures are published.
-SEEDS = {"accuracy": FINAL_SEEDS, "peers": PEER_SEEDS, "lot": FINAL_LOT}
+SEEDS = {"accuracy": FINAL_SEEDS, "peers": PEER_SEEDS, "lot": FINAL_LOT, "things": FINAL_THINGS}
 
 
 def main(words):
     options = parse(words)
-    options.out = options.out or ROOT / "build" / ("things" if options.things else options.what)
-    tuning = TUNING_THINGS if options.things else TUNING.get(options.what, TUNING_SEEDS)
-    final = FINAL_THINGS if options.things else SEEDS.get(options.what, tuning)
-    seeds = options.seeds or (tuning if options.tune else final)
+    options.out = options.out or ROOT / "build" / options.bed
+    tuning = TUNING.get(options.bed, TUNING_SEEDS)
+    seeds = options.seeds or (tuning if options.tune else SEEDS.get(options.bed, tuning))
     if options.quick:
-        seeds = tuning[: QUICK.get(options.what, 1)]
+        seeds = tuning[: QUICK.get(options.bed, 1)]
     # What is measured only in part does not belong on a page.
     whole = not (options.quick or options.tune or options.only or options.check or options.settings or options.against)
     begin = time.monotonic()

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
+#include <filesystem>
+
 /// @file
 /// Names of the files and folders of a sequence in the Fast-YCB layout, and of others' layouts.
 
@@ -30,5 +33,12 @@ inline constexpr const char* kBopTruthFile = "scene_gt.json";
 inline constexpr const char* kBopVisibleFolder = "mask_visib";
 inline constexpr const char* kDepthExtension = ".float";
 inline constexpr const char* kImageExtension = ".png";
+
+/// Folders of models of a BOP data set, which lie beside those of its scenes; the first counts.
+[[nodiscard]] inline std::array<std::filesystem::path, 2> BopModelFolders(
+    const std::filesystem::path& scene) {
+  const auto data_set = (std::filesystem::absolute(scene) / ".." / "..").lexically_normal();
+  return {data_set / "models_eval", data_set / "models"};
+}
 
 }  // namespace disflow::host
