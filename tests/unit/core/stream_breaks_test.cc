@@ -107,9 +107,10 @@ TEST_F(StreamBreaks, FrameThatEndsTheSearch_IsStillOfTheObjectBefore) {
   StampNs now_ns = Track(kStart_ns);
   Estimate before;
   Estimate estimate;
+  DepthScene other_thing(0.9F);
+  DepthFrame frame = other_thing.Rectangle({10, 10, 30, 100}, 0.5F).frame();
   for (int i = 0; i < 600 && !tracker_->field().empty(); ++i) {
     // In view but not found, so that it is given up in the end.
-    DepthFrame frame = DepthScene(0.9F).Rectangle({10, 10, 30, 100}, 0.5F).frame();
     frame.stamp_ns = now_ns += kFrame_ns;
     before = estimate;
     estimate = Give(frame);
