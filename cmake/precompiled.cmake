@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Reading Eigen and the standard library is most of what a file of the programs takes to compile; with this it is done once,
 # and what a target's own headers ask for once for every eight files. Not for core, whose instructions are counted as they
-# are by default, and the first not for hal, whose flags are others (cmake/flags.cmake). Not by default: every file shall name
-# what it includes, which nobody notices with these. Tests (tests/CMakeLists.txt) have their headers read once in any case.
+# are by default (under sanitizers nobody counts them), and the first not for hal, whose flags are others (cmake/flags.cmake).
+# Not by default: every file shall name what it includes, which nobody notices with these. Tests (tests/CMakeLists.txt) have
+# their headers read once in any case.
 add_library(disflow_headers OBJECT ${PROJECT_SOURCE_DIR}/cmake/precompiled.cc)
 target_link_libraries(disflow_headers PRIVATE disflow::core disflow_warnings)
 target_precompile_headers(disflow_headers PRIVATE
@@ -19,6 +20,9 @@ function(disflow_compile_together target)
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endfunction()
 disflow_compile_together(disflow_hal)
+if(DISFLOW_SANITIZED)
+  disflow_compile_together(disflow_core)
+endif()
 
 function(disflow_precompile folder)
   get_property(targets DIRECTORY ${folder} PROPERTY BUILDSYSTEM_TARGETS)

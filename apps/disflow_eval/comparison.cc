@@ -55,6 +55,7 @@ constexpr std::array kMeasures{
 /// Files of the same name are told apart by their folders.
 std::vector<std::string> NamesOf(const std::vector<const Report*>& reports) {
   std::vector<std::string> names;
+  names.reserve(reports.size());
   for (const Report* report : reports)
     names.push_back(std::filesystem::path(report->csv).stem().string());
   for (std::size_t i = 0; i < names.size(); ++i) {

@@ -25,9 +25,10 @@ constexpr double kRotationTolerance = 0.01;
 class RowsByFrame {
  public:
   void Put(EstimateRow row, double score) {
-    const auto at = rows_.find(row.frame);
+    const auto frame = row.frame;
+    const auto at = rows_.find(frame);
     if (at != rows_.end() && at->second.score >= score) return;
-    rows_.insert_or_assign(row.frame, Scored{std::move(row), score});
+    rows_.insert_or_assign(frame, Scored{std::move(row), score});
   }
   [[nodiscard]] EstimateTable Take(const fs::path& file) {
     if (rows_.empty()) throw InputError(file, "holds no pose of this object and sequence");

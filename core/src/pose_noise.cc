@@ -12,7 +12,7 @@ namespace disflow {
 namespace {
 
 // Share of what is known by which a frame moves it.
-constexpr float kGain = 0.1F;
+constexpr float kShareGain = 0.1F;
 // Of stamps that are taken for exact. Half a millisecond: at 0.5 m/s what poses scatter by before a
 // D415.
 constexpr float kNotable_s2 = 5e-4F * 5e-4F;
@@ -34,7 +34,7 @@ void Follow(const Vec3& deviation, const Mat3& noise, const Mat3& others, float&
   if (cholesky.info() != Eigen::Success || !std::isfinite(observed)) return;
   const bool above = observed > kQuartileOfChiSquared;
   // A second at 30 Hz for twice the share, a third of a second for half of it.
-  share *= 1.0F + kGain * (above ? kQuartile : kQuartile - 1.0F);
+  share *= 1.0F + kShareGain * (above ? kQuartile : kQuartile - 1.0F);
   share = std::clamp(share, kLeastShare, kMostShare);
 }
 
@@ -89,7 +89,7 @@ Deviation DeviationFrom(const std::array<Sight, 3>& before, const Sight& sight,
 float FollowStamps(const Deviation& deviation, const Mat6& exact, float late_before_s,
                    float& variance_s2) noexcept {
   // Of the negative product of two normal numbers whose correlation is -3/4.
-  constexpr float kMedian = 0.293F;
+  constexpr float kMedianProduct = 0.293F;
   // Poses that err along their motion by three times what is expected tell nothing of the stamps.
   constexpr float kDoubt = 9.0F;
   const Eigen::LLT<Mat6> cholesky(exact);
@@ -106,8 +106,8 @@ float FollowStamps(const Deviation& deviation, const Mat6& exact, float late_bef
   const float told = signal / (1.0F + signal);  // how much of what stamps may be off by is seen
   const float expected_s2 = kDoubt / information + deviation.noises * std::max(variance_s2, 0.0F);
   if (!std::isfinite(late_s * late_before_s + expected_s2 + told)) return late_s;
-  const bool above = -late_s * late_before_s > kMedian * expected_s2;
-  variance_s2 += kGain * told * std::max(variance_s2, kNotable_s2) * (above ? 0.5F : -0.5F);
+  const bool above = -late_s * late_before_s > kMedianProduct * expected_s2;
+  variance_s2 += kShareGain * told * std::max(variance_s2, kNotable_s2) * (above ? 0.5F : -0.5F);
   variance_s2 = std::clamp(variance_s2, -kNotable_s2, most_s2);
   return late_s;
 }

@@ -51,6 +51,7 @@ std::vector<int> ParsePixels(const RunSetting& setting, std::size_t count, const
   if (texts.size() == 1) texts = Split(texts[0], ':');
   if (texts.size() != count) Refuse(setting.where, setting.option + ": " + form + " is needed");
   std::vector<int> pixels;
+  pixels.reserve(texts.size());
   for (const std::string& text : texts) pixels.push_back(ParseWhole(setting, text, 0, kLargest_px));
   return pixels;
 }
@@ -204,6 +205,7 @@ std::vector<ObjectOptions> MakeObjects(const std::vector<ObjectTable>& tables,
     entries.push_back(std::move(entry));
   }
   std::vector<ObjectOptions> objects;
+  objects.reserve(entries.size());
   for (Entry& entry : entries) objects.push_back(std::move(entry.options));
   return objects;
 }

@@ -107,7 +107,8 @@ SettingsFile LoadSettings(const std::string& file, Config& config) {
     const toml::table* const table = node.as_table();
     if (node.is_array_of_tables()) {
       const std::string name(section.str());
-      Refuse(Where(file, node), "[[" + name + "]] is a list of sections; write [" + name + "]");
+      Refuse(Where(file, node),
+             std::string("[[").append(name) + "]] is a list of sections; write [" + name + "]");
     } else if (table == nullptr) {
       AssignNode(file, std::string(section.str()), node, config);
     } else if (section == "run") {

@@ -29,6 +29,7 @@ std::vector<float> Kernel(double std_px) {
     squares += weights.back() * weights.back();
   }
   std::vector<float> kernel;
+  kernel.reserve(weights.size());
   for (const double weight : weights)
     kernel.push_back(static_cast<float>(weight / std::sqrt(squares)));
   return kernel;

@@ -9,6 +9,19 @@
 #include "scene_label.h"
 
 namespace disflow::host {
+namespace {
+
+struct Pixel {
+  int u = 0;
+  int v = 0;
+};
+
+Pixel PixelAt(std::size_t index, int width_px) {
+  const auto pixel = static_cast<int>(index);
+  return {pixel % width_px, pixel / width_px};
+}
+
+}  // namespace
 
 MaskDisturbance::MaskDisturbance(const SimulationOptions& options, std::size_t object)
     : options_(options),
@@ -21,9 +34,9 @@ MaskDisturbance::Extent MaskDisturbance::ExtentOf(std::span<const std::uint8_t> 
   double count = 0.0;
   for (std::size_t i = 0; i < mask.size(); ++i) {
     if (mask[i] == 0) continue;
-    const auto pixel = static_cast<int>(i);
-    extent.u += pixel % options_.width_px;
-    extent.v += pixel / options_.width_px;
+    const auto [u, v] = PixelAt(i, options_.width_px);
+    extent.u += u;
+    extent.v += v;
     count += 1.0;
   }
   if (count == 0.0) return extent;
@@ -46,9 +59,7 @@ void MaskDisturbance::Leak(int frame, std::span<const std::uint32_t> labels,
   const double leak_u = extent.u + extent.radius * std::cos(angle);
   const double leak_v = extent.v + extent.radius * std::sin(angle);
   for (std::size_t i = 0; i < mask.size(); ++i) {
-    const auto pixel = static_cast<int>(i);
-    const double u = pixel % options_.width_px;
-    const double v = pixel / options_.width_px;
+    const auto [u, v] = PixelAt(i, options_.width_px);
     const bool near_leak = std::hypot(u - leak_u, v - leak_v) < 0.5 * extent.radius;
     const bool near_hand = labels[i] == SceneLabel::kOccluder &&
                            std::hypot(u - extent.u, v - extent.v) < 1.5 * extent.radius;
@@ -60,9 +71,9 @@ void MaskDisturbance::Leak(int frame, std::span<const std::uint32_t> labels,
 void MaskDisturbance::CutOff(double angle_rad, std::vector<std::uint8_t>& mask) const {
   const Extent extent = ExtentOf(mask);
   for (std::size_t i = 0; i < mask.size(); ++i) {
-    const auto pixel = static_cast<int>(i);
-    const double along = (pixel % options_.width_px - extent.u) * std::cos(angle_rad) +
-                         (pixel / options_.width_px - extent.v) * std::sin(angle_rad);
+    const auto [u, v] = PixelAt(i, options_.width_px);
+    const double along =
+        (u - extent.u) * std::cos(angle_rad) + (v - extent.v) * std::sin(angle_rad);
     if (along > 0.0) mask[i] = 0;
   }
 }

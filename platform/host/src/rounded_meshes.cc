@@ -31,7 +31,7 @@ TriangleMesh MakeHandle(double start_m, double reach_m, double half_height_m) {
   return MeshTube(48, kRows, false, [&](double angle, int row) {
     const int step = std::min(std::max(row - 1, 0), kSteps);
     const double t = pi * step / kSteps;
-    const Vec3d centre(start_m + reach_m * std::sin(t), 0.0, -half_height_m * std::cos(t));
+    Vec3d centre(start_m + reach_m * std::sin(t), 0.0, -half_height_m * std::cos(t));
     if (row == 0 || row == kRows - 1) return centre;
     const Vec3d along = Vec3d(reach_m * std::cos(t), 0.0, half_height_m * std::sin(t)).normalized();
     const Vec3d sideways = Vec3d::UnitY();

@@ -174,6 +174,7 @@ float SensorNoise::MeasurePixel(int u, int v, BitSource& bits) const {
   disparity_px += static_cast<float>(model_.std_px) * error;
   const auto step_px = static_cast<float>(model_.step_px);
   // Not std::round, which is a call on plain x86-64; disparities are not negative here.
+  // NOLINTNEXTLINE(bugprone-incorrect-roundings)
   const float steps = static_cast<float>(static_cast<int>(disparity_px / step_px + 0.5F));
   const float rounded_px = steps * step_px;
   // So far away that the disparity vanishes in the noise.

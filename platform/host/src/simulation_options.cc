@@ -275,12 +275,14 @@ std::vector<std::string> ObjectNames(const SimulationOptions& options) {
 
 std::vector<std::string_view> ListSimulationObjects() {
   std::vector<std::string_view> names;
+  names.reserve(std::size(kObjects));
   for (const Choice<ObjectKind>& object : kObjects) names.push_back(object.word);
   return names;
 }
 
 std::vector<SimulationOptionText> ListSimulationOptions() {
   std::vector<SimulationOptionText> list;
+  list.reserve(std::size(kOptions));
   for (const Option& option : kOptions) list.push_back({option.key, option.allowed()});
   return list;
 }

@@ -81,8 +81,9 @@ void TimeOfFlightCamera::FindIndirectLight() {
 
 /// Interpolated between those of the four nearest facets that lie on the same surface.
 std::complex<double> TimeOfFlightCamera::IndirectAt(int u, int v, std::uint32_t label) const {
-  const double x = (u - cell_px_ / 2) / static_cast<double>(cell_px_);
-  const double y = (v - cell_px_ / 2) / static_cast<double>(cell_px_);
+  const int middle_px = cell_px_ / 2;
+  const double x = (u - middle_px) / static_cast<double>(cell_px_);
+  const double y = (v - middle_px) / static_cast<double>(cell_px_);
   const int column = static_cast<int>(std::floor(x));
   const int row = static_cast<int>(std::floor(y));
   std::complex<double> sum = 0.0;

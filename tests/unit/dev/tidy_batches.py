@@ -1,0 +1,88 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""What clang-tidy is to read instead of some sources: tidy_batches.py BUILD OUT, names of sources on standard input
+
+Sources that the build compiles together (cmake/precompiled.cmake), or could, are read together: their headers are most of
+what clang-tidy reads, and eight sources have them in common. OUT gets these files and the compile_commands.json of all;
+names of what is to be read go to standard output. Sources that BUILD does not compile are left out, and named.
+"""
+import json
+import pathlib
+import re
+import sys
+
+# As cmake/precompiled.cmake has it: what compiles together there has no names twice.
+_TOGETHER = 8
+# What clang-tidy does not know: precompiled headers of GCC, and a warning of its.
+_UNKNOWN = re.compile(r" -include \S*/cmake_pch\.hxx| -Wno-subobject-linkage")
+_INCLUDE = re.compile(r'^#include "(.*)"', re.MULTILINE)
+
+
+def one_by_one(database):
+    """Entries of a compilation database, each source once, however many targets compile it, and those that are compiled
+    together one by one."""
+    entries = {}
+    for entry in database:
+        file = pathlib.Path(entry["file"])
+        sources = _INCLUDE.findall(file.read_text(encoding="utf-8")) if file.parent.name == "Unity" else [entry["file"]]
+        for source in sources:
+            command = _UNKNOWN.sub("", entry["command"]).replace(entry["file"], source)
+            entries.setdefault(source, {**entry, "file": source, "command": command})
+    return list(entries.values())
+
+
+def unit(entry):
+    """Its target, and how it is compiled: what differs in one of them is not compiled together."""
+    target = re.search(r" -o (\S+?\.dir)/", entry["command"])
+    command = entry["command"].replace(entry["file"], "")
+    return target and target[1], entry["directory"], re.sub(r" -(o|MF|MT) \S+", "", command)
+
+
+def batches(entries, chosen):
+    """Lists of the entries that are chosen, of sources that go together, in the database's order."""
+    result = []
+    size, last = 0, None
+    for entry in entries:
+        # Counted over all, so that a few that are chosen are never with those with which the build has not compiled them.
+        if size in (0, _TOGETHER) or unit(entry) != last:
+            result.append([])
+            size, last = 0, unit(entry)
+        size += 1
+        if entry["file"] in chosen:
+            result[-1].append(entry)
+    return [batch for batch in result if batch]
+
+
+def read_together(batch, file):
+    """Writes the file that includes a batch. @return Its entry."""
+    first = batch[0]
+    lines = (f'#include "{entry["file"]}"  // NOLINT(bugprone-suspicious-include)\n' for entry in batch)
+    file.write_text("".join(lines), encoding="utf-8")
+    return {**first, "file": str(file), "command": first["command"].replace(first["file"], str(file))}
+
+
+def main():
+    build, out = map(pathlib.Path, sys.argv[1:])
+    chosen = {str(pathlib.Path(line.strip()).resolve()) for line in sys.stdin if line.strip()}
+    entries = one_by_one(json.loads((build / "compile_commands.json").read_text(encoding="utf-8")))
+    out.mkdir(parents=True, exist_ok=True)
+    for old in out.glob("together_*.cc"):
+        old.unlink()
+    # Without the options that it is compiled with clang-tidy guesses: of boards' sources wrongly.
+    unknown = sorted(chosen - {entry["file"] for entry in entries})
+    if unknown:
+        print(f"not read, since {build} does not compile them: {' '.join(unknown)}", file=sys.stderr)
+    names = []
+    for number, batch in enumerate(batches(entries, chosen)):
+        if len(batch) > 1:
+            entries.append(read_together(batch, (out / f"together_{number}.cc").resolve()))
+            names.append(entries[-1]["file"])
+        else:
+            names.append(batch[0]["file"])
+    (out / "compile_commands.json").write_text(json.dumps(entries), encoding="utf-8")
+    for name in names:
+        print(name)
+
+
+if __name__ == "__main__":
+    main()
