@@ -18,35 +18,39 @@ _UNKNOWN = re.compile(r" -include \S*/cmake_pch\.hxx| -Wno-subobject-linkage")
 _INCLUDE = re.compile(r'^#include "(.*)"', re.MULTILINE)
 
 
+def target(entry):
+    found = re.search(r" -o (\S+?\.dir)/", entry["command"])
+    return found and found[1]
+
+
 def one_by_one(database):
     """Entries of a compilation database, each source once, however many targets compile it, and those that are compiled
-    together one by one."""
-    entries = {}
+    together one by one; and for each source what it may be read together with."""
+    entries, units = {}, {}
+    unities = {target(entry) for entry in database if pathlib.Path(entry["file"]).parent.name == "Unity"}
     for entry in database:
         file = pathlib.Path(entry["file"])
         sources = _INCLUDE.findall(file.read_text(encoding="utf-8")) if file.parent.name == "Unity" else [entry["file"]]
         for source in sources:
+            if source in entries:
+                continue
             command = _UNKNOWN.sub("", entry["command"]).replace(entry["file"], source)
-            entries.setdefault(source, {**entry, "file": source, "command": command})
-    return list(entries.values())
+            entries[source] = {**entry, "file": source, "command": command}
+            # Where the build has some together, as it has them; otherwise what is compiled alike.
+            alike = re.sub(r" -(o|MF|MT) \S+", "", command.replace(source, ""))
+            units[source] = entry["file"] if target(entry) in unities else (target(entry), entry["directory"], alike)
+    return list(entries.values()), units
 
 
-def unit(entry):
-    """Its target, and how it is compiled: what differs in one of them is not compiled together."""
-    target = re.search(r" -o (\S+?\.dir)/", entry["command"])
-    command = entry["command"].replace(entry["file"], "")
-    return target and target[1], entry["directory"], re.sub(r" -(o|MF|MT) \S+", "", command)
-
-
-def batches(entries, chosen):
+def batches(entries, units, chosen):
     """Lists of the entries that are chosen, of sources that go together, in the database's order."""
     result = []
     size, last = 0, None
     for entry in entries:
         # Counted over all, so that a few that are chosen are never with those with which the build has not compiled them.
-        if size in (0, _TOGETHER) or unit(entry) != last:
+        if size in (0, _TOGETHER) or units[entry["file"]] != last:
             result.append([])
-            size, last = 0, unit(entry)
+            size, last = 0, units[entry["file"]]
         size += 1
         if entry["file"] in chosen:
             result[-1].append(entry)
@@ -64,7 +68,7 @@ def read_together(batch, file):
 def main():
     build, out = map(pathlib.Path, sys.argv[1:])
     chosen = {str(pathlib.Path(line.strip()).resolve()) for line in sys.stdin if line.strip()}
-    entries = one_by_one(json.loads((build / "compile_commands.json").read_text(encoding="utf-8")))
+    entries, units = one_by_one(json.loads((build / "compile_commands.json").read_text(encoding="utf-8")))
     out.mkdir(parents=True, exist_ok=True)
     for old in out.glob("together_*.cc"):
         old.unlink()
@@ -73,7 +77,7 @@ def main():
     if unknown:
         print(f"not read, since {build} does not compile them: {' '.join(unknown)}", file=sys.stderr)
     names = []
-    for number, batch in enumerate(batches(entries, chosen)):
+    for number, batch in enumerate(batches(entries, units, chosen)):
         if len(batch) > 1:
             entries.append(read_together(batch, (out / f"together_{number}.cc").resolve()))
             names.append(entries[-1]["file"])

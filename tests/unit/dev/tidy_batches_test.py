@@ -69,13 +69,15 @@ class TidyBatches(unittest.TestCase):
         again = [{**one, "command": one["command"].replace("-O3", "-O0")} for one in self.sources(2)]
         self.assertEqual(self.batches(self.sources(2) + again), [["a0.cc", "a1.cc"]])
 
-    def test_what_the_build_has_together_is_together_by_its_own_names(self):
+    def test_what_the_build_has_together_is_together_by_its_own_names_and_what_it_has_alone_is_alone(self):
         unity = self.folder / "Unity"
         unity.mkdir()
         file = unity / "unity_0_cxx.cxx"
         file.write_text("".join(f'#include "{self.folder}/a{i}.cc"\n' for i in range(2)), encoding="utf-8")
+        together = entry(str(self.folder), "unity_0_cxx.cxx", file=str(file))
+        alone = [entry(str(self.folder), name) for name in ("a8.cc", "a9.cc")]
         self.assertEqual(
-            self.batches([entry(str(self.folder), "unity_0_cxx.cxx", file=str(file))], ["a0.cc", "a1.cc"]), [["a0.cc", "a1.cc"]])
+            self.batches([*alone, together], ["a0.cc", "a1.cc", "a8.cc", "a9.cc"]), ["a8.cc", "a9.cc", ["a0.cc", "a1.cc"]])
 
     def test_a_source_that_the_build_does_not_compile_is_left_out_and_named(self):
         self.assertEqual(self.batches(self.sources(1), ["a0.cc", "board.cc"]), ["a0.cc"])
