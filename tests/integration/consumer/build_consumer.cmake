@@ -37,7 +37,7 @@ endif()
 run(${CMAKE_COMMAND} -S ${PROJECT} -B ${WORK}/build ${options})
 if(WAY STREQUAL "subdirectory")
   check_only_core_and_hal_are_built(${WORK}/build ${DISFLOW_SOURCE} ${PROJECT})
-  # Some do, and it takes a third of the time.
+  # Some do, and it takes half of the time.
   run(${CMAKE_COMMAND} -S ${PROJECT} -B ${WORK}/build -DCMAKE_UNITY_BUILD=ON)
 endif()
 run(${CMAKE_COMMAND} --build ${WORK}/build)

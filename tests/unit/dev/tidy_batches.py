@@ -6,6 +6,7 @@ Sources that the build compiles together (cmake/precompiled.cmake), or could, ar
 what clang-tidy reads, and eight sources have them in common. OUT gets these files and the compile_commands.json of all;
 names of what is to be read go to standard output. Sources that BUILD does not compile are left out, and named.
 """
+import itertools
 import json
 import pathlib
 import re
@@ -23,37 +24,40 @@ def target(entry):
     return found and found[1]
 
 
+def is_together(entry):
+    return pathlib.Path(entry["file"]).parent.name == "Unity"
+
+
+def sources(entry):
+    return _INCLUDE.findall(pathlib.Path(entry["file"]).read_text(encoding="utf-8")) if is_together(entry) else [entry["file"]]
+
+
 def one_by_one(database):
     """Entries of a compilation database, each source once, however many targets compile it, and those that are compiled
     together one by one; and for each source what it may be read together with."""
     entries, units = {}, {}
-    unities = {target(entry) for entry in database if pathlib.Path(entry["file"]).parent.name == "Unity"}
+    grouped = {target(entry) for entry in database if is_together(entry)}
     for entry in database:
-        file = pathlib.Path(entry["file"])
-        sources = _INCLUDE.findall(file.read_text(encoding="utf-8")) if file.parent.name == "Unity" else [entry["file"]]
-        for source in sources:
+        for source in sources(entry):
             if source in entries:
                 continue
             command = _UNKNOWN.sub("", entry["command"]).replace(entry["file"], source)
             entries[source] = {**entry, "file": source, "command": command}
             # Where the build has some together, as it has them; otherwise what is compiled alike.
             alike = re.sub(r" -(o|MF|MT) \S+", "", command.replace(source, ""))
-            units[source] = entry["file"] if target(entry) in unities else (target(entry), entry["directory"], alike)
+            units[source] = entry["file"] if target(entry) in grouped else (target(entry), entry["directory"], alike)
     return list(entries.values()), units
 
 
 def batches(entries, units, chosen):
     """Lists of the entries that are chosen, of sources that go together, in the database's order."""
     result = []
-    size, last = 0, None
-    for entry in entries:
-        # Counted over all, so that a few that are chosen are never with those with which the build has not compiled them.
-        if size in (0, _TOGETHER) or units[entry["file"]] != last:
-            result.append([])
-            size, last = 0, units[entry["file"]]
-        size += 1
-        if entry["file"] in chosen:
-            result[-1].append(entry)
+    for _, run in itertools.groupby(entries, key=lambda entry: units[entry["file"]]):
+        unit = list(run)
+        # Cut before it is chosen from, so that a few that are chosen are never with those with which the build has not
+        # compiled them.
+        for first in range(0, len(unit), _TOGETHER):
+            result.append([entry for entry in unit[first:first + _TOGETHER] if entry["file"] in chosen])
     return [batch for batch in result if batch]
 
 
