@@ -111,8 +111,12 @@ PoseUncertainty FindPoseUncertainty(const RegistrationInformation& information,
 Twist KnownTwist(const Twist& twist, const Mat6& free_turn, float unobserved_s) noexcept {
   // Of bottles the turn about their axis is often not told for a second, and still known.
   constexpr float kLongest_s = 1.5F;
+  return unobserved_s < kLongest_s ? twist : WithoutTurn(twist, free_turn);
+}
+
+Twist WithoutTurn(const Twist& twist, const Mat6& free_turn) noexcept {
   constexpr float kLittle = 100.0F;  // of which a hundredth is left
-  if (free_turn.isZero(0.0F) || unobserved_s < kLongest_s) return twist;
+  if (free_turn.isZero(0.0F)) return twist;
   Vec6 per_unit = Vec6::Constant(1.0F / kAnyRate_rps);
   per_unit.head<3>().setConstant(1.0F / kAnySpeed_mps);
   Vec6 rate;

@@ -4,6 +4,8 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
+#include "disflow/field/fast_math.h"
+#include "disflow/flow/pose_uncertainty.h"
 #include "disflow/geometry/covariance.h"
 #include "disflow/geometry/symmetric_solver.h"
 
@@ -186,6 +188,18 @@ void TwistFilter::Update(const PoseCameraFromObject& T_co, const Mat6& pose_cova
   T_co_ = Displaced(T_co_, correction[0]);
   twist_ += correction[1];
   acceleration_ += correction[2];
+}
+
+void TwistFilter::FadeTurn(const Mat6& free_turn, float time_constant_s) noexcept {
+  const float kept = FastExpNonPositive(-last_step_s_ / time_constant_s);
+  const auto without_turn = [&free_turn](const Vec6& motion) {
+    const Twist known = WithoutTurn({motion.head<3>(), motion.tail<3>()}, free_turn);
+    Vec6 result;
+    result << known.linear_mps, known.angular_rps;
+    return result;
+  };
+  twist_ = kept * twist_ + (1.0F - kept) * without_turn(twist_);
+  acceleration_ = without_turn(acceleration_);
 }
 
 /// Takes one number into account, axis . pose, measured with the variance 1.

@@ -102,7 +102,7 @@ class Tracker {
   static constexpr int kFramesUntilObserved = 3;
   static constexpr int kMostForgotten = 64;  ///< Clusters per frame; the rest goes in the next.
   using Handles = FixedVector<Handle, kMostForgotten>;
-  static constexpr float kFade_s = 0.5F;  ///< Time constant of the velocity of an unseen object.
+  static constexpr float kFade_s = 0.5F;  ///< Time constant of a velocity that nothing tells.
   /// Longer repeats are no hiccup of a driver: the scene stands still, or the camera hangs.
   static constexpr StampNs kLongestHiccup_ns = 100'000'000;
   static constexpr float kDefinedPoseVariance = 1e-10F;  ///< (0.01 mm)^2 and (0.01 mrad)^2.

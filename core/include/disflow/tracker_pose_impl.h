@@ -185,7 +185,12 @@ void Tracker<Limits>::Follow(StampNs stamp_ns, const Aligned& aligned,
   field_.SetShiftFree(slip_.free());
   model_edges_.SetShiftFree(slip_.free());
   first_view_.Learn(covariance.registered_o, pose_noise_, covariance.outline_m);
-  field_.SetTurnFree(IsTurnFree(stamp_ns));
+  const bool turn_is_free = IsTurnFree(stamp_ns);
+  field_.SetTurnFree(turn_is_free);
+  if (turn_is_free) {
+    const Mat3 R_co = T_oc_.rotation().transpose();
+    twist_filter_.FadeTurn(RotatedCovariance(free_turn_o_, R_co), kFade_s);
+  }
   free_axis_.Learn(covariance.free_turn_o);
   observed_frames_ = covariance.complete ? std::min(observed_frames_ + 1, kFramesUntilObserved) : 0;
   estimate.pose_covariance = covariance.reported;

@@ -51,6 +51,9 @@ struct PoseUncertainty {
 [[nodiscard]] PoseUncertainty FindPoseUncertainty(const RegistrationInformation& information,
                                                   float least_gradient_std) noexcept;
 
+/// A twist without its turn about axes of `free_turn`, nor the way of the origin that comes of it.
+[[nodiscard]] Twist WithoutTurn(const Twist& twist, const Mat6& free_turn) noexcept;
+
 /// A twist as far as the surface tells it. About an axis of which nothing has told for some time
 /// registration follows noise: a can seems to turn by hundreds of degrees per second, and looks the
 /// same. It is taken for one that does not turn about it.

@@ -34,6 +34,10 @@ class TwistFilter {
   /// Corrects the state with a pose registered at the current stamp.
   void Update(const PoseCameraFromObject& T_co, const Mat6& pose_covariance,
               const PoseManner& manner = {}) noexcept;
+  /// Lets the rate of a turn that no image tells fade over the last step, as a hand's does (Singer,
+  /// 1970): registration takes noise for it, the next pose is expected by it, and so on.
+  /// @param free_turn As PoseUncertainty::free_turn; of the object's origin, camera axes.
+  void FadeTurn(const Mat6& free_turn, float time_constant_s) noexcept;
   /// Where the object would be at a stamp if it kept its velocity; does not change the state.
   [[nodiscard]] PoseCameraFromObject Extrapolate(StampNs stamp_ns) const noexcept;
   /// Takes another object frame on the same object for its own: motion stays what it was.
