@@ -9,9 +9,11 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <iostream>
 
 #include "disflow/host/regular_file.h"
 #include "errors.h"
+#include "output_path.h"
 
 namespace disflow::apps {
 namespace {
@@ -39,6 +41,20 @@ void WriteDirectly(const std::filesystem::path& file, std::string_view text,
   stream.close();
   if (!stream) {
     throw OutputError(target, std::string("cannot be written: ") + std::strerror(errno));
+  }
+}
+
+/// Goes on where whoever started the program has written to: a log keeps what is in it.
+/// @param target Named in the error message.
+void WriteToDescriptor(int descriptor, std::string_view text, const std::filesystem::path& target) {
+  std::cout.flush();  // What was said before stands before.
+  while (!text.empty()) {
+    const ssize_t written = ::write(descriptor, text.data(), text.size());
+    if (written >= 0) {
+      text.remove_prefix(static_cast<std::size_t>(written));
+    } else if (errno != EINTR) {
+      throw OutputError(target, std::string("cannot be written: ") + std::strerror(errno));
+    }
   }
 }
 
@@ -79,12 +95,17 @@ void RequireRegularFile(const std::filesystem::path& file) {
 }
 
 void WriteFile(const std::filesystem::path& file, std::string_view text) {
+  if (const auto descriptor = DescriptorOf(file)) {
+    WriteToDescriptor(*descriptor, text, file);
+    return;
+  }
   std::error_code error;
   if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error)) {
     WriteDirectly(file, text, file);
     return;
   }
-  std::filesystem::path partial = file;
+  const std::filesystem::path target = FollowLinks(file);
+  std::filesystem::path partial = target;
   partial += ".partial-" + std::to_string(::getpid());
   try {
     WriteDirectly(partial, text, file);
@@ -92,7 +113,7 @@ void WriteFile(const std::filesystem::path& file, std::string_view text) {
     std::filesystem::remove(partial, error);
     throw;
   }
-  std::filesystem::rename(partial, file, error);
+  std::filesystem::rename(partial, target, error);
   if (error) {
     const std::string reason = error.message();
     std::filesystem::remove(partial, error);

@@ -25,8 +25,9 @@ inline constexpr std::size_t kMaxFile_bytes = std::size_t{1} << 27U;
 void RequireRegularFile(const std::filesystem::path& file);
 
 /// Writes through a temporary file beside the target and renames it, so that an earlier result
-/// survives a full disk. Targets that are not regular files (/dev/null, pipes) are written
-/// directly.
+/// survives a full disk; of a link, the file that it leads to. Targets that are not regular files
+/// (/dev/null, pipes) are written directly, and what the program was started with (/dev/stdout)
+/// goes on.
 /// @throws OutputError
 void WriteFile(const std::filesystem::path& file, std::string_view text);
 

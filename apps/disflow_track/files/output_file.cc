@@ -11,6 +11,7 @@
 #include <cstring>
 #include <utility>
 
+#include "output_path.h"
 #include "program/exit_status.h"
 #include "program/stop_signal.h"
 
@@ -47,8 +48,21 @@ posix::FileDescriptor OpenPipe(const std::string& path) {
   }
 }
 
+/// Whether a path stands for a file that the program was started with, e.g. /dev/stdout.
+bool IsOpenFile(const std::string& path) {
+  return KindOf(path) == S_IFREG && DescriptorOf(path).has_value();
+}
+
+/// Goes on where whoever started the program has written to: a log keeps what is in it.
+posix::FileDescriptor ShareOpenFile(const std::string& path) {
+  posix::FileDescriptor file(::fcntl(DescriptorOf(path).value_or(-1), F_DUPFD_CLOEXEC, 0));
+  if (!file.is_open()) Fail(path, errno);
+  return file;
+}
+
 posix::FileDescriptor Create(const std::string& path, const std::string& shown_path) {
   if (KindOf(path) == S_IFIFO) return OpenPipe(path);
+  if (IsOpenFile(path)) return ShareOpenFile(path);
   posix::FileDescriptor file(posix::RetryOnSignal(
       [&path] { return ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666); }));
   if (!file.is_open()) Fail(shown_path, errno);
@@ -90,7 +104,8 @@ int WriteAndClose(posix::FileDescriptor file, std::string_view bytes) noexcept {
 
 }  // namespace
 
-RecordFile::RecordFile(const std::string& path) : path_(path), file_(Create(path, path)) {}
+RecordFile::RecordFile(const std::string& path)
+    : path_(path), is_own_(!IsOpenFile(path)), file_(Create(path, path)) {}
 
 bool RecordFile::Append(std::string_view record) noexcept {
   if (error_ != 0) return false;
@@ -100,14 +115,15 @@ bool RecordFile::Append(std::string_view record) noexcept {
     return true;
   }
   // Pipes and devices cannot be cut; there is nothing to repair then.
-  (void)!::ftruncate(file_.get(), complete_bytes_);
+  if (is_own_) (void)!::ftruncate(file_.get(), complete_bytes_);
   return false;
 }
 
 void ReplaceFile(const std::string& path, std::string_view contents) {
-  const std::string part = PartPath(path);
+  const std::string target = FollowLinks(path);
+  const std::string part = PartPath(target);
   int error = WriteAndClose(Create(part, path), contents);
-  if (error == 0 && std::rename(part.c_str(), path.c_str()) != 0) error = errno;
+  if (error == 0 && std::rename(part.c_str(), target.c_str()) != 0) error = errno;
   if (error == 0) return;
   (void)::unlink(part.c_str());
   Fail(path, error);
@@ -116,12 +132,13 @@ void ReplaceFile(const std::string& path, std::string_view contents) {
 AtomicFile::AtomicFile(const std::string& path) : path_(path) {
   const mode_t kind = KindOf(path);
   if (kind == S_IFDIR) Fail(path, EISDIR);
-  if (kind != 0 && kind != S_IFREG) {
+  if ((kind != 0 && kind != S_IFREG) || IsOpenFile(path)) {
     stream_ = Create(path, path);
     return;
   }
-  (void)Create(PartPath(path), path);
-  (void)::unlink(PartPath(path).c_str());
+  const std::string part = PartPath(FollowLinks(path));
+  (void)Create(part, path);
+  (void)::unlink(part.c_str());
 }
 
 void AtomicFile::Commit(std::string_view contents) {

@@ -26,6 +26,7 @@ class RecordFile {
 
  private:
   std::string path_;
+  bool is_own_;  ///< Not one that others write to as well.
   posix::FileDescriptor file_;
   std::int64_t complete_bytes_ = 0;
   int error_ = 0;
@@ -34,7 +35,8 @@ class RecordFile {
 /// Where an AtomicFile is written while it is committed.
 [[nodiscard]] inline std::string PartPath(const std::string& path) { return path + ".part"; }
 
-/// Makes or replaces a regular file; it appears, whole, or not at all.
+/// Makes or replaces a regular file, of a link the one that it leads to; it appears, whole, or not
+/// at all.
 /// @throws Failure kOutputFailed; nothing is left behind then.
 void ReplaceFile(const std::string& path, std::string_view contents);
 
@@ -51,7 +53,8 @@ class AtomicFile {
 
  private:
   std::string path_;
-  posix::FileDescriptor stream_;  ///< Open if the path is a device or pipe, which has no part.
+  /// Open if the path is a device, a pipe or standard output, which have no part.
+  posix::FileDescriptor stream_;
 };
 
 }  // namespace disflow::apps

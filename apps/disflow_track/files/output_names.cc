@@ -11,6 +11,7 @@
 
 #include "files/output_file.h"
 #include "input_paths.h"
+#include "output_path.h"
 #include "program/exit_status.h"
 
 namespace disflow::apps {
@@ -29,7 +30,7 @@ void AddAtomic(const std::string& option, const std::string& name,
   std::error_code error;
   const bool is_file = !fs::exists(name, error) || fs::is_regular_file(name, error);
   if (name.empty() || !is_file) return;
-  outputs.push_back(MakeNamedPath(option, PartPath(name)));
+  outputs.push_back(MakeNamedPath(option, PartPath(FollowLinks(name))));
   outputs.back().name = name;
 }
 

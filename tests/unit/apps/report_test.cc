@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "report.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -211,6 +213,28 @@ TEST(PlotsTest, FolderThatCannotBe_IsAnOutputError) {
   EXPECT_PRED_FORMAT2(testing::IsSubstring, "cannot be created", MessageOf<OutputError>([&] {
                         (void)WritePlots(MakeReport(), file / "plots");
                       }));
+}
+
+TEST(WriteFileTest, Link_StaysAndLeadsToWhatWasWritten) {
+  const ScratchDir dir;
+  const std::filesystem::path file = dir.Write("real.json", "earlier");
+  std::filesystem::create_symlink("real.json", dir.path() / "link.json");
+  WriteFile(dir.path() / "link.json", "new");
+  EXPECT_TRUE(std::filesystem::is_symlink(dir.path() / "link.json"));
+  EXPECT_EQ(ReadFile(file), "new");
+}
+
+TEST(WriteFileTest, FileThatTheProgramWasStartedWith_GoesOnAndKeepsWhatIsInIt) {
+  const ScratchDir dir;
+  const std::filesystem::path file = dir.Write("log", "earlier\n");
+  const int log = ::open(file.c_str(), O_WRONLY | O_APPEND);
+  ASSERT_GE(log, 0);
+  const std::string name = "/proc/self/fd/" + std::to_string(log);
+  WriteFile(name, "first\n");
+  WriteFile(name, "second\n");
+  EXPECT_EQ(::close(log), 0);
+  EXPECT_EQ(ReadFile(file), "earlier\nfirst\nsecond\n");
+  EXPECT_THROW(WriteFile("/proc/self/fd/4095", "lost"), OutputError);
 }
 
 TEST(WriteFileTest, ReplacesWhatWasThere) {

@@ -53,6 +53,30 @@ TEST_F(OutputFileTest, AtomicFile_HasNoPartOnDiskBeforeItIsCommitted) {
   EXPECT_EQ(test::ReadFile(Path("mesh")), "new");
 }
 
+TEST_F(OutputFileTest, Link_StaysAndLeadsToWhatWasCommitted) {
+  test::WriteFile(Path("real"), "earlier");
+  fs::create_symlink("real", Path("link"));
+  AtomicFile file(Path("link"));
+  EXPECT_EQ(test::ReadFile(Path("real")), "earlier");
+  file.Commit("new");
+  EXPECT_TRUE(fs::is_symlink(Path("link")));
+  EXPECT_EQ(test::ReadFile(Path("real")), "new");
+  EXPECT_EQ(Files(), 2);
+}
+
+TEST_F(OutputFileTest, FileThatTheProgramWasStartedWith_GoesOnAndKeepsWhatIsInIt) {
+  test::WriteFile(Path("log"), "earlier\n");
+  const posix::FileDescriptor log(::open(Path("log").c_str(), O_WRONLY | O_APPEND));
+  ASSERT_TRUE(log.is_open());
+  const std::string name = "/proc/self/fd/" + std::to_string(log.get());
+  RecordFile records(name);
+  ASSERT_TRUE(records.Append("record\n"));
+  AtomicFile(name).Commit("mesh\n");
+  ASSERT_TRUE(records.Append("record\n"));
+  EXPECT_EQ(test::ReadFile(Path("log")), "earlier\nrecord\nmesh\nrecord\n");
+  EXPECT_EQ(Files(), 1);
+}
+
 TEST_F(OutputFileTest, PartThatAKilledRunLeft_IsTakenOver) {
   test::WriteFile(Path("mesh.part"), "much longer than what comes");
   AtomicFile(Path("mesh")).Commit("new");
