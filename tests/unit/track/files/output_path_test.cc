@@ -29,9 +29,9 @@ TEST_F(OutputPathTest, OtherPaths_AreNoDescriptors) {
   test::WriteFile(Path("1"), "");
   fs::create_symlink("circle", Path("circle"));
   for (const std::string& path : {Path("1"), Path("none"), Path("circle"), std::string("/dev/null"),
-                                 std::string("/proc/self/fd/x"), std::string("/proc/self/fd/1x"),
-                                 std::string("/proc/self/fd/-1"), std::string("/proc/self/fd"),
-                                 std::string("1"), std::string()}) {
+                                  std::string("/proc/self/fd/x"), std::string("/proc/self/fd/1x"),
+                                  std::string("/proc/self/fd/-1"), std::string("/proc/self/fd"),
+                                  std::string("1"), std::string()}) {
     EXPECT_EQ(DescriptorOf(path), std::nullopt) << path;
   }
 }
