@@ -5,22 +5,12 @@
 #include <system_error>
 #include <utility>
 
+#include "output_path.h"
+
 namespace disflow::apps {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Where a file will be created if its name is a symbolic link to nothing.
-fs::path FollowLinks(fs::path path) {
-  constexpr int kMostLinks = 40;  // as Linux itself
-  std::error_code error;
-  for (int i = 0; i < kMostLinks && fs::is_symlink(path, error); ++i) {
-    const fs::path target = fs::read_symlink(path, error);
-    if (error) break;
-    path = target.is_absolute() ? target : path.parent_path() / target;
-  }
-  return path;
-}
 
 fs::path Resolve(const std::string& name) {
   std::error_code error;

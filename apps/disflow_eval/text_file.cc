@@ -11,6 +11,7 @@
 #include <fstream>
 #include <iostream>
 
+#include "disflow/host/file_output.h"
 #include "disflow/host/regular_file.h"
 #include "errors.h"
 #include "output_path.h"
@@ -48,13 +49,8 @@ void WriteDirectly(const std::filesystem::path& file, std::string_view text,
 /// @param target Named in the error message.
 void WriteToDescriptor(int descriptor, std::string_view text, const std::filesystem::path& target) {
   std::cout.flush();  // What was said before stands before.
-  while (!text.empty()) {
-    const ssize_t written = ::write(descriptor, text.data(), text.size());
-    if (written >= 0) {
-      text.remove_prefix(static_cast<std::size_t>(written));
-    } else if (errno != EINTR) {
-      throw OutputError(target, std::string("cannot be written: ") + std::strerror(errno));
-    }
+  if (!host::WriteAll(descriptor, text)) {
+    throw OutputError(target, std::string("cannot be written: ") + std::strerror(errno));
   }
 }
 

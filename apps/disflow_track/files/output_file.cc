@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <optional>
 #include <utility>
 
 #include "output_path.h"
@@ -48,23 +49,20 @@ posix::FileDescriptor OpenPipe(const std::string& path) {
   }
 }
 
-/// Whether a path stands for a file that the program was started with, e.g. /dev/stdout.
-bool IsOpenFile(const std::string& path) {
-  return KindOf(path) == S_IFREG && DescriptorOf(path).has_value();
-}
-
-/// Goes on where whoever started the program has written to: a log keeps what is in it.
-posix::FileDescriptor ShareOpenFile(const std::string& path) {
-  posix::FileDescriptor file(::fcntl(DescriptorOf(path).value_or(-1), F_DUPFD_CLOEXEC, 0));
-  if (!file.is_open()) Fail(path, errno);
-  return file;
+/// The descriptor of a file that the program was started with, if that is what a path stands for,
+/// e.g. /dev/stdout.
+std::optional<int> OpenFileAt(const std::string& path) {
+  return KindOf(path) == S_IFREG ? DescriptorOf(path) : std::nullopt;
 }
 
 posix::FileDescriptor Create(const std::string& path, const std::string& shown_path) {
   if (KindOf(path) == S_IFIFO) return OpenPipe(path);
-  if (IsOpenFile(path)) return ShareOpenFile(path);
-  posix::FileDescriptor file(posix::RetryOnSignal(
-      [&path] { return ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666); }));
+  // Goes on where whoever started the program has written to: a log keeps what is in it.
+  const std::optional<int> open_file = OpenFileAt(path);
+  posix::FileDescriptor file(posix::RetryOnSignal([&] {
+    return open_file ? ::fcntl(*open_file, F_DUPFD_CLOEXEC, 0)
+                     : ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  }));
   if (!file.is_open()) Fail(shown_path, errno);
   return file;
 }
@@ -105,7 +103,7 @@ int WriteAndClose(posix::FileDescriptor file, std::string_view bytes) noexcept {
 }  // namespace
 
 RecordFile::RecordFile(const std::string& path)
-    : path_(path), is_own_(!IsOpenFile(path)), file_(Create(path, path)) {}
+    : path_(path), is_own_(!OpenFileAt(path)), file_(Create(path, path)) {}
 
 bool RecordFile::Append(std::string_view record) noexcept {
   if (error_ != 0) return false;
@@ -132,7 +130,7 @@ void ReplaceFile(const std::string& path, std::string_view contents) {
 AtomicFile::AtomicFile(const std::string& path) : path_(path) {
   const mode_t kind = KindOf(path);
   if (kind == S_IFDIR) Fail(path, EISDIR);
-  if ((kind != 0 && kind != S_IFREG) || IsOpenFile(path)) {
+  if ((kind != 0 && kind != S_IFREG) || OpenFileAt(path)) {
     stream_ = Create(path, path);
     return;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "file_output.h"
+#include "disflow/host/file_output.h"
 
 #include <fcntl.h>
 #include <unistd.h>

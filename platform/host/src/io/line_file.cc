@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "file_output.h"
+#include "disflow/host/file_output.h"
 
 namespace disflow::host {
 

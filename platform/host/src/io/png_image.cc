@@ -12,9 +12,9 @@
 #include <string>
 #include <system_error>
 
+#include "disflow/host/file_output.h"
 #include "disflow/host/image_limits.h"
 #include "disflow/host/regular_file.h"
-#include "file_output.h"
 
 namespace disflow::host {
 namespace {

@@ -10,10 +10,10 @@
 #include <system_error>
 
 #include "disflow/host/depth_metres.h"
+#include "disflow/host/file_output.h"
 #include "disflow/host/png_image.h"
 #include "disflow/host/sequence_layout.h"
 #include "disflow/types.h"
-#include "file_output.h"
 
 namespace disflow::host {
 namespace {
