@@ -1,24 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "disflow/flow/pose_start.h"
 
-#include <array>
 #include <cmath>
 
 #include "disflow/geometry/symmetric_eigen.h"
 
 namespace disflow {
-namespace {
-
-/// Axes of Fibonacci's lattice on the sphere: evenly spread, however many there are.
-Vec3 LatticeAxis(int index, int count) noexcept {
-  constexpr float kGoldenAngle_rad = 2.39996323F;
-  const float z = 1.0F - (2.0F * static_cast<float>(index) + 1.0F) / static_cast<float>(count);
-  const float across = std::sqrt(1.0F - z * z);
-  const float turn_rad = kGoldenAngle_rad * static_cast<float>(index);
-  return {across * std::cos(turn_rad), across * std::sin(turn_rad), z};
-}
-
-}  // namespace
 
 Vec3 CubeDirection(int index) noexcept {
   if (index < 6) {
@@ -29,18 +16,6 @@ Vec3 CubeDirection(int index) noexcept {
   const int corner = index - 6;
   return Vec3(corner & 1 ? 1.0F : -1.0F, corner & 2 ? 1.0F : -1.0F, corner & 4 ? 1.0F : -1.0F)
       .normalized();
-}
-
-Mat3 GlobalRotation(int index) noexcept {
-  struct Shell {
-    float angle_rad;
-    int axes;
-  };
-  constexpr std::array<Shell, 3> kShells{{{0.0F, 1}, {0.7F, 18}, {1.35F, 53}}};
-  static_assert(kShells[0].axes + kShells[1].axes + kShells[2].axes == kGlobalRotations);
-  std::size_t shell = 0;
-  while (index >= kShells[shell].axes) index -= kShells[shell++].axes;
-  return ExpSo3(Vec3(kShells[shell].angle_rad * LatticeAxis(index, kShells[shell].axes)));
 }
 
 Mat3 PrincipalAxes(const Mat3& covariance) noexcept {

@@ -113,6 +113,19 @@ inline Shape Cylinder(float radius_m, float half_height_m, float margin_m) {
           side_m2 + caps_m2};
 }
 
+/// Both, as far as they do not lie within each other.
+inline Shape Together(const Shape& a, const Shape& b) {
+  return {[=](const Vec3& x_m) { return std::min(a.distance_m(x_m), b.distance_m(x_m)); },
+          [=](std::mt19937& random) {
+            while (true) {
+              const bool first = Uniform(random, 0.0F, a.area_m2 + b.area_m2) < a.area_m2;
+              const SurfacePoint point = (first ? a : b).random_point(random);
+              if ((first ? b : a).distance_m(point.position_m) > 0.0F) return point;
+            }
+          },
+          a.area_m2 + b.area_m2};
+}
+
 /// The same shape elsewhere: no edge is parallel to the octree's cells by chance.
 inline Shape Moved(const Shape& shape, const Transform<Object, Object>& moved_from_shape) {
   const auto shape_from_moved = moved_from_shape.Inverse();

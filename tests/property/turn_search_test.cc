@@ -16,19 +16,6 @@ using Search = TurnSearch<profiles::Edge>;
 
 constexpr float kDegree = std::numbers::pi_v<float> / 180.0F;
 
-/// Both, as far as they do not lie within each other.
-Shape Together(const Shape& a, const Shape& b) {
-  return {[=](const Vec3& x_m) { return std::min(a.distance_m(x_m), b.distance_m(x_m)); },
-          [=](std::mt19937& random) {
-            while (true) {
-              const bool first = Uniform(random, 0.0F, a.area_m2 + b.area_m2) < a.area_m2;
-              const SurfacePoint point = (first ? a : b).random_point(random);
-              if ((first ? b : a).distance_m(point.position_m) > 0.0F) return point;
-            }
-          },
-          a.area_m2 + b.area_m2};
-}
-
 Transform<Object, Object> AboutZ(float angle_rad) {
   return {Mat3(ExpSo3(Vec3(0.0F, 0.0F, angle_rad))), Vec3::Zero()};
 }

@@ -38,7 +38,7 @@ typename Tracker<Limits>::Aligned Tracker<Limits>::Register(const DepthFrame& fr
   const auto start =
       PoseSearch<Limits>(registration, field_, model_edges_, config_.registration, prior)
           .Find(conflict);
-  if (prior.global >= 0) global_part_ = (global_part_ + 1) % PoseSearch<Limits>::kGlobalFrames;
+  if (prior.global >= 0) global_part_ = (global_part_ + 1) % PairSearch<Limits>::kParts;
   DoubtSlivers(field_, start.T_oc, frame.camera, config_.sampler.edge_min_cos_incidence, edges_);
   registration.SetObservations(samples_, edges_);
   Aligned aligned =

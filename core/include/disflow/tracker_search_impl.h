@@ -24,12 +24,13 @@ PoseSearchPrior Tracker<Limits>::SearchPrior(StampNs stamp_ns) const noexcept {
                         monitor_.Doubts(stamp_ns) ? monitor_.missed() + 1 : 0};
   prior.contradicted = monitor_.contradicted();
   prior.unheld = unheld_;
-  if (recognition_.pending() || recognition_.suspected()) {
+  const bool found = recognition_.pending() || recognition_.suspected();
+  if (found) {
     prior.T_predicted = recognition_.T_oc();
     prior.turned_over = true;
-  } else if (monitor_.searched() >= kLocalSearches) {
-    prior.global = global_part_;
   }
+  // What is found is compared with what is found elsewhere, too.
+  if (found || monitor_.searched() >= kLocalSearches) prior.global = global_part_;
   return prior;
 }
 

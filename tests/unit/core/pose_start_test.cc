@@ -30,31 +30,6 @@ Vec3 RandomPoint(std::mt19937& random) {
 
 float AngleBetween(const Mat3& a, const Mat3& b) { return TurnBetween(b, a).norm(); }
 
-TEST(GlobalRotation, EveryQuarterTurn_IsWithinReachOfARegistration) {
-  // What tests/property/pose_search_test.cc shows a registration to correct.
-  constexpr float kReach_rad = 0.53F;
-  constexpr float kQuarterTurn_rad = 1.571F;
-  std::mt19937 random(3);
-  for (int i = 0; i < 3000; ++i) {
-    const Mat3 wanted = RandomRotation(random, kQuarterTurn_rad);
-    float nearest_rad = AngleBetween(wanted, Mat3::Identity());
-    for (int k = 0; k < kGlobalRotations; ++k)
-      nearest_rad = std::min(nearest_rad, AngleBetween(wanted, GlobalRotation(k)));
-    ASSERT_LT(nearest_rad, kReach_rad);
-  }
-}
-
-TEST(GlobalRotation, Rotations_ComeInTheOrderOfTheirAngles) {
-  float before_rad = 0.0F;
-  for (int k = 0; k < kGlobalRotations; ++k) {
-    const Mat3 turn = GlobalRotation(k);
-    EXPECT_LT((turn * turn.transpose() - Mat3::Identity()).norm(), 1e-5F);
-    const float angle_rad = AngleBetween(turn, Mat3::Identity());
-    EXPECT_GT(angle_rad, before_rad - 1e-3F);
-    before_rad = angle_rad;
-  }
-}
-
 TEST(HalfWay, Pose_IsAsFarFromBoth) {
   std::mt19937 random(5);
   for (int i = 0; i < 100; ++i) {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "disflow/flow/pair_search.h"
 #include "disflow/flow/pose_start.h"
 #include "disflow/flow/recentred.h"
 #include "disflow/flow/registration_impl.h"
@@ -37,14 +38,12 @@ class PoseSearch {
         registration_.Score(field_, config_, T_predicted) >= config_.hypothesis_score) {
       return prior_.unheld ? Slid(conflict) : Believed(true);
     }
-    if (prior_.global >= 0) {
-      AddGlobal(starts);
-      return BestAndCentred(starts, conflict);
-    }
     if (prior_.turned_over) {
       (void)starts.push_back(T_predicted);
       AddTurnedOver(starts);
-      AddTurned(starts);
+    }
+    if (prior_.global >= 0) {
+      AddPairs(starts);
       return BestAndCentred(starts, conflict);
     }
     (void)starts.push_back(T_predicted);
@@ -63,8 +62,6 @@ class PoseSearch {
   static constexpr int kPoints = Limits::kMaxRegistrationPoints * 2 / 5;
   /// Starts that are tried in one frame at most; one more while the object is searched for.
   static constexpr int kMaxStarts = 8;
-  /// Frames in which a search in all directions is through.
-  static constexpr int kGlobalFrames = (kGlobalRotations + kMaxStarts - 1) / kMaxStarts;
 
  private:
   using Starts = FixedVector<PoseObjectFromCamera, kMaxStarts>;
@@ -85,10 +82,12 @@ class PoseSearch {
     return apart.turn2 > apart.shift2 ? Believed(false) : found;
   }
 
-  /// The n-th part of all rotations.
-  void AddGlobal(Starts& starts) const noexcept {
-    for (int i = prior_.global * kMaxStarts; i < kGlobalRotations && !starts.full(); ++i) {
-      (void)starts.push_back(PredictedTurned(GlobalRotation(i)));
+  /// Where what is seen may lie on the model, wherever that was.
+  void AddPairs(Starts& starts) const noexcept {
+    PairSearch<Limits> search(field_, config_, registration_.samples(), prior_.global);
+    search.Find();
+    for (int i = 0; i < search.size() && !starts.full(); ++i) {
+      (void)starts.push_back(search.T_oc(i));
     }
   }
 

@@ -28,10 +28,10 @@ struct PoseSearchPrior {
   /// n-th frame in a row.
   int search = 0;
   /// Not negative: the object may have been turned anyhow meanwhile, and this is the n-th part of a
-  /// search in all directions, from 0.
+  /// search for it wherever it is, from 0.
   int global = -1;
-  /// What was searched for may be where it is predicted, or turned over: many things look nearly
-  /// alike then, and boxes do.
+  /// What was searched for, `global`, may be where it is predicted, or turned over: many things
+  /// look nearly alike then, and boxes do.
   bool turned_over = false;
   /// The last pose was followed, but may have slid: the image contradicted it.
   bool contradicted = false;
@@ -43,11 +43,6 @@ struct PoseSearchPrior {
 inline constexpr int kCubeDirections = 14;
 /// @param index From 0 to kCubeDirections - 1.
 [[nodiscard]] Vec3 CubeDirection(int index) noexcept;
-
-/// Rotations spread evenly, 40 degrees apart: none, those by 40, then by 77 degrees.
-inline constexpr int kGlobalRotations = 72;
-/// @param index From 0 to kGlobalRotations - 1.
-[[nodiscard]] Mat3 GlobalRotation(int index) noexcept;
 
 /// The principal axes of a spread of points, as columns.
 [[nodiscard]] Mat3 PrincipalAxes(const Mat3& covariance) noexcept;
