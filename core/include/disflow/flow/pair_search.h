@@ -55,18 +55,19 @@ class PairSearch {
   [[nodiscard]] const PoseObjectFromCamera& T_oc(int i) const noexcept { return poses_[i].T_oc; }
 
  private:
-  /// Centroids of clusters lie anywhere in their cells, so of those about a cell apart one in some
-  /// is as near to an observed point.
+  /// How far both pairs' lengths may differ. Clusters' centroids lie a cell apart, so that a point
+  /// is up to half a cell from the nearest; a registration corrects what this leaves.
   static constexpr float kToleranceOfCell = 0.3F;
   /// Of cosines of normals: 15 degrees across, as rough as clusters on bends are.
   static constexpr float kToleranceOfCosine = 0.25F;
-  static constexpr int kPairs = 4;       ///< Observed pairs of a frame.
-  static constexpr int kTries = 12;      ///< Of which each is the best.
-  static constexpr int kFirst = 48;      ///< Clusters that the first of its points may lie on.
-  static constexpr int kAlike = 2;       ///< Poses by each of those.
-  static constexpr int kPoints = 24;     ///< Samples that a pose is judged by,
-  static constexpr int kFew = 6;         ///< unless so many of them
-  static constexpr float kLeast = 0.4F;  ///< have no surface.
+  static constexpr int kPairs = 4;   ///< Observed pairs of a frame.
+  static constexpr int kTries = 12;  ///< Of which each is the best.
+  static constexpr int kFirst = 48;  ///< Clusters that the first of its points may lie on.
+  static constexpr int kAlike = 2;   ///< Poses by each of those.
+  /// Samples that a pose is judged by. It is given up if a few explain less than a share.
+  static constexpr int kPoints = 24;
+  static constexpr int kFew = 6;
+  static constexpr float kLeast = 0.4F;
   /// Poses nearer than 17 degrees lead a registration to the same.
   static constexpr float kApart_rad = 0.3F;
 
