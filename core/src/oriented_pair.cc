@@ -6,11 +6,6 @@
 namespace disflow {
 namespace {
 
-/// From a to b; zero if they are the same.
-Vec3 Line(const OrientedPair& pair) noexcept {
-  return pair.distance_m > 0.0F ? Vec3((pair.b_m - pair.a_m) / pair.distance_m) : Vec3::Zero();
-}
-
 /// What of a direction stands across a line.
 Vec3 Across(const Vec3& direction, const Vec3& line) noexcept {
   return direction - direction.dot(line) * line;
@@ -30,20 +25,17 @@ Mat3 Axes(const Vec3& line, const Vec3& direction) noexcept {
 
 bool OrientedPair::IsLike(const OrientedPair& other, float cosine_tolerance) const noexcept {
   const auto alike = [&](float a, float b) { return std::abs(a - b) <= cosine_tolerance; };
-  const Vec3 line = Line(*this);
-  const Vec3 other_line = Line(other);
-  return alike(normal_a.dot(line), other.normal_a.dot(other_line)) &&
-         alike(normal_b.dot(line), other.normal_b.dot(other_line)) &&
+  return alike(normal_a.dot(line), other.normal_a.dot(other.line)) &&
+         alike(normal_b.dot(line), other.normal_b.dot(other.line)) &&
          alike(normal_a.dot(normal_b), other.normal_a.dot(other.normal_b));
 }
 
 PoseObjectFromCamera OrientedPair::LaidOnto(const OrientedPair& known_o) const noexcept {
-  const Vec3 line = Line(*this);
   // Sum or difference of the normals, whichever says more of the turn about the line.
   const Vec3 sum = Across(normal_a + normal_b, line);
   const Vec3 difference = Across(normal_a - normal_b, line);
   const float sign = sum.squaredNorm() > difference.squaredNorm() ? 1.0F : -1.0F;
-  const Mat3 rotation = Axes(Line(known_o), known_o.normal_a + sign * known_o.normal_b) *
+  const Mat3 rotation = Axes(known_o.line, known_o.normal_a + sign * known_o.normal_b) *
                         Axes(line, normal_a + sign * normal_b).transpose();
   return {rotation, Vec3(0.5F * (known_o.a_m + known_o.b_m) - rotation * (0.5F * (a_m + b_m)))};
 }

@@ -74,7 +74,7 @@ TEST_F(OrientedPairs, AnyOfTheNormalsTurned_IsAnotherPair) {
   EXPECT_FALSE(pair.IsLike({a_m, up, b_m, about_line * up}, kCosineTolerance));
 }
 
-// Each side of it may be the first, so that it is not found by chance.
+// Which of its points is the first matters.
 TEST_F(OrientedPairs, PairTheOtherWayRound_IsAnother) {
   const OrientedPair seen(Vec3::Zero(), Vec3::UnitZ(), Vec3(0.1F, 0.0F, 0.0F), Vec3::UnitX());
   const OrientedPair known(seen.b_m, seen.normal_b, seen.a_m, seen.normal_a);

@@ -14,6 +14,7 @@ struct OrientedPair {
   Vec3 b_m = Vec3::Zero();
   Vec3 normal_b = Vec3::UnitZ();
   float distance_m = 0.0F;
+  Vec3 line = Vec3::Zero();  ///< From a to b, unit; zero if they are the same.
 
   OrientedPair() noexcept = default;
   /// @param in_normal_a,in_normal_b Unit.
@@ -23,7 +24,8 @@ struct OrientedPair {
         normal_a(in_normal_a),
         b_m(in_b_m),
         normal_b(in_normal_b),
-        distance_m((b_m - a_m).norm()) {}
+        distance_m((b_m - a_m).norm()),
+        line(distance_m > 0.0F ? Vec3((b_m - a_m) / distance_m) : Vec3::Zero()) {}
 
   [[nodiscard]] bool IsAsFar(float squared_m2, float tolerance_m) const noexcept {
     const float least_m = distance_m > tolerance_m ? distance_m - tolerance_m : 0.0F;

@@ -82,8 +82,9 @@ class PairSearch {
     float most = 0.0F;
     for (int i = 0; i < kTries; ++i, ++next_) {
       // Evenly spread over all pairs: multiples of powers of the plastic number's inverse.
-      const OrientedPair pair =
-          Between(SampleAt(next_ * 3242174889U), SampleAt(next_ * 2447445414U));
+      const SurfaceSample& a = SampleAt(next_ * 3242174889U);
+      const SurfaceSample& b = SampleAt(next_ * 2447445414U);
+      const OrientedPair pair(a.position_m, a.normal, b.position_m, b.normal);
       const float value = pair.distance_m * (0.1F + pair.normal_a.cross(pair.normal_b).norm());
       if (value <= most) continue;
       most = value;
@@ -96,10 +97,6 @@ class PairSearch {
   [[nodiscard]] const SurfaceSample& SampleAt(std::uint32_t place) const noexcept {
     const auto size = static_cast<std::uint64_t>(samples_.size());
     return samples_[static_cast<int>((place * size) >> 32U)];
-  }
-  [[nodiscard]] static OrientedPair Between(const SurfaceSample& a,
-                                            const SurfaceSample& b) noexcept {
-    return {a.position_m, a.normal, b.position_m, b.normal};
   }
 
   void LayOnto(const OrientedPair& observed) noexcept {
