@@ -32,26 +32,39 @@ Vec6d TwistError(const AlignedTrajectory& run, const AlignedFrame& frame) {
   return error;
 }
 
+/// Covariance that independent errors of (a point, rotation), or of their rates, at the true origin
+/// have at the tracker's own: the point is carried along the lever between them.
+Mat6d TruthCovariance(const AlignedTrajectory& run, const AlignedFrame& frame, double point_std,
+                      double angle_std) {
+  const Vec3d lever = TruePoseOfTrackerFrame(run, frame).translation() - frame.T_ct.translation();
+  Mat6d J = Mat6d::Identity();
+  J.topRightCorner<3, 3>() = -Skew(lever);
+  Vec6d variances;
+  variances << Vec3d::Constant(point_std * point_std), Vec3d::Constant(angle_std * angle_std);
+  return J * variances.asDiagonal() * J.transpose();
+}
+
 double Share(const std::vector<double>& values, std::size_t total, double low, double high) {
   const auto inside =
       std::count_if(values.begin(), values.end(), [&](double x) { return x >= low && x <= high; });
   return static_cast<double>(inside) / static_cast<double>(total);
 }
 
-template <class Error>
+template <class Error, class Covariance>
 std::optional<Consistency> OfErrors(const AlignedTrajectory& run,
                                     const std::optional<Mat6d> EstimateRow::*covariance,
-                                    Error error_of) {
+                                    Error error_of, Covariance truth_covariance) {
   Consistency result;
   for (const AlignedFrame& frame : run.frames) {
     result.by_frame.push_back(std::numeric_limits<double>::quiet_NaN());
     const std::optional<Mat6d>& given = frame.row->*covariance;
     if (!given || frame.row->frame == run.aligned_frame) continue;
-    const Eigen::LLT<Mat6d> factor(*given);
-    if (factor.info() != Eigen::Success) {
+    // What is stated has to be a covariance without the help of the truth's.
+    if (Eigen::LLT<Mat6d>(*given).info() != Eigen::Success) {
       ++result.singular;
       continue;
     }
+    const Eigen::LLT<Mat6d> factor(*given + truth_covariance(frame));
     const Vec6d error = error_of(run, frame);
     result.nees.push_back(error.dot(factor.solve(error)));
     result.by_frame.back() = result.nees.back();
@@ -71,12 +84,22 @@ double ChiSquare6Cdf(double x) {
   return 1.0 - std::exp(-half) * (1.0 + half + 0.5 * half * half);
 }
 
-std::optional<Consistency> EvaluatePoseConsistency(const AlignedTrajectory& run) {
-  return OfErrors(run, &EstimateRow::pose_covariance, PoseError);
+std::optional<Consistency> EvaluatePoseConsistency(const AlignedTrajectory& run,
+                                                   const TruthDeviation& truth) {
+  // Twice: the aligned frame's error, seen from here, has the same covariance as this frame's own,
+  // for both are alike in all directions and the lever turns with the object.
+  const auto covariance = [&](const AlignedFrame& frame) -> Mat6d {
+    return 2.0 * TruthCovariance(run, frame, truth.position_m, truth.rotation_rad);
+  };
+  return OfErrors(run, &EstimateRow::pose_covariance, PoseError, covariance);
 }
 
-std::optional<Consistency> EvaluateTwistConsistency(const AlignedTrajectory& run) {
-  return OfErrors(run, &EstimateRow::twist_covariance, TwistError);
+std::optional<Consistency> EvaluateTwistConsistency(const AlignedTrajectory& run,
+                                                    const TruthDeviation& truth) {
+  const auto covariance = [&](const AlignedFrame& frame) -> Mat6d {
+    return TruthCovariance(run, frame, truth.linear_mps, truth.angular_rps);
+  };
+  return OfErrors(run, &EstimateRow::twist_covariance, TwistError, covariance);
 }
 
 }  // namespace disflow::apps

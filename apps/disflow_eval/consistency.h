@@ -17,6 +17,16 @@ inline constexpr double kChiSquare6At97_5 = 14.449375335447922;
 /// Cumulative chi-square distribution with 6 degrees of freedom.
 [[nodiscard]] double ChiSquare6Cdf(double x);
 
+/// How far off the truth itself is, as a standard deviation in each direction, of independent
+/// errors from frame to frame. A reference that was measured has some; a simulator's truth has
+/// none.
+struct TruthDeviation {
+  double position_m = 0.0;  ///< Of the true object frame's origin.
+  double rotation_rad = 0.0;
+  double linear_mps = 0.0;  ///< Of the velocity of that origin.
+  double angular_rps = 0.0;
+};
+
 /// Normalised estimation error squared e' P^-1 e of a run. A consistent filter has mean 6 and 95 %
 /// of its frames between the bounds; larger values mean too small a covariance.
 struct Consistency {
@@ -29,13 +39,17 @@ struct Consistency {
 };
 
 /// Error of the position of the tracker's own origin and rotation vector of R_estimated R_true',
-/// camera axes, against the pose covariance. The aligned frame itself, exact by construction, is
+/// camera axes, against the pose covariance and what the truth is off by: in the frame itself, and
+/// in the aligned one, whose error is in all. The aligned frame itself, exact by construction, is
 /// left out.
 /// @return Nothing if no frame has a covariance.
-[[nodiscard]] std::optional<Consistency> EvaluatePoseConsistency(const AlignedTrajectory& run);
+[[nodiscard]] std::optional<Consistency> EvaluatePoseConsistency(const AlignedTrajectory& run,
+                                                                 const TruthDeviation& truth = {});
 
-/// Error of (v, omega) of the tracker's own origin, camera axes, against the twist covariance.
+/// Error of (v, omega) of the tracker's own origin, camera axes, against the twist covariance and
+/// what the truth is off by.
 /// @return Nothing if no frame has a covariance.
-[[nodiscard]] std::optional<Consistency> EvaluateTwistConsistency(const AlignedTrajectory& run);
+[[nodiscard]] std::optional<Consistency> EvaluateTwistConsistency(const AlignedTrajectory& run,
+                                                                  const TruthDeviation& truth = {});
 
 }  // namespace disflow::apps

@@ -40,8 +40,11 @@ Report Evaluate(const EvaluationInput& input) {
   const NearestSurface nearest(model, SampleSurface(model, kAddSurfacePoints));
   report.poses = EvaluatePoses(report.run, model_points,
                                [&nearest](const Vec3d& x) { return nearest.Find(x).distance; });
-  report.pose_consistency = EvaluatePoseConsistency(report.run);
-  if (report.has_velocities) report.twist_consistency = EvaluateTwistConsistency(report.run);
+  report.truth_std = input.truth_std;
+  report.pose_consistency = EvaluatePoseConsistency(report.run, input.truth_std);
+  if (report.has_velocities) {
+    report.twist_consistency = EvaluateTwistConsistency(report.run, input.truth_std);
+  }
   report.stages = EvaluateTiming(report.estimates);
   if (!input.mesh.empty()) {
     report.mesh = input.mesh.string();

@@ -12,9 +12,10 @@ namespace disflow::apps {
 struct EvaluationInput {
   std::string sequence;  ///< Folder in the Fast-YCB layout, or "sim:...".
   std::filesystem::path csv;
-  std::filesystem::path model;  ///< Empty = the sequence's own.
-  std::filesystem::path mesh;   ///< Reconstructed surface, tracker's object frame; empty = none.
-  std::string object = "";      ///< Which of several; empty: the only one.
+  std::filesystem::path model;    ///< Empty = the sequence's own.
+  std::filesystem::path mesh;     ///< Reconstructed surface, tracker's object frame; empty = none.
+  std::string object = "";        ///< Which of several; empty: the only one.
+  TruthDeviation truth_std = {};  ///< What the covariances are not to be blamed for.
 };
 
 /// Reads everything and computes all metrics.

@@ -4,6 +4,7 @@
 #include <exception>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "comparison.h"
@@ -18,6 +19,7 @@
 #include "summary.h"
 #include "text_file.h"
 #include "trajectory_export.h"
+#include "units.h"
 
 namespace {
 
@@ -166,6 +168,27 @@ int RunFastYcb(disflow::apps::FastYcbOptions options) {
   return kDone;
 }
 
+/// Two standard deviations of the truth, of a place or velocity and of an angle or its rate in
+/// degrees.
+void AddTruthDeviation(CLI::App& app, const char* name, const char* what, const char* units,
+                       double& point, double& angle_rad) {
+  const auto take = [&point, &angle_rad](const std::pair<double, double>& given) {
+    point = given.first;
+    angle_rad = given.second / disflow::apps::kDegrees;
+  };
+  // Written so that NaN fails.
+  const CLI::Validator not_negative(
+      [](const std::string& text) {
+        double value = -1.0;
+        const bool good = CLI::detail::lexical_cast(text, value) && value >= 0.0 && value < 1e3;
+        return good ? "" : text + " is not between 0 and 1000";
+      },
+      "");
+  app.add_option_function<std::pair<double, double>>(name, take, what)
+      ->check(not_negative)
+      ->type_name(units);
+}
+
 void AddSequence(CLI::App& app, Options& options) {
   app.add_option("SEQUENCE", options.input.sequence,
                  "Sequence with ground truth: a folder, or the sim: address that was tracked");
@@ -199,6 +222,14 @@ void AddSequence(CLI::App& app, Options& options) {
       ->type_name("DIR");
   app.add_option("--summary", options.summary, "Write a one-page summary in Markdown")
       ->type_name("FILE");
+  disflow::apps::TruthDeviation& truth = options.input.truth_std;
+  AddTruthDeviation(app, "--truth-pose-std",
+                    "How far off the true poses are themselves, standard deviation in each "
+                    "direction: counted in the consistency of the pose [0 0]",
+                    "M DEG", truth.position_m, truth.rotation_rad);
+  AddTruthDeviation(app, "--truth-twist-std",
+                    "The same of the true velocities: counted in that of the twist [0 0]",
+                    "M/S DEG/S", truth.linear_mps, truth.angular_rps);
 }
 
 void AddFastYcb(CLI::App& app, disflow::apps::FastYcbOptions& options) {

@@ -122,9 +122,20 @@ std::vector<ReportRow> Rows(const Report& report) {
   AddFrames(report, rows);
   AddPoses(report.poses, rows);
   if (report.has_velocities) AddVelocities(report.poses, rows);
-  if (report.pose_consistency) AddConsistency("Pose consistency", *report.pose_consistency, rows);
+  const TruthDeviation& truth = report.truth_std;
+  if (report.pose_consistency) {
+    AddConsistency("Pose consistency", *report.pose_consistency, rows);
+    if (truth.position_m > 0.0 || truth.rotation_rad > 0.0) {
+      rows.Add("counted in, of the truth itself", "%.3f mm, %.3f deg",
+               kMillimetres * truth.position_m, kDegrees * truth.rotation_rad);
+    }
+  }
   if (report.twist_consistency) {
     AddConsistency("Twist consistency", *report.twist_consistency, rows);
+    if (truth.linear_mps > 0.0 || truth.angular_rps > 0.0) {
+      rows.Add("counted in, of the truth itself", "%.3f cm/s, %.3f deg/s",
+               kCentimetres * truth.linear_mps, kDegrees * truth.angular_rps);
+    }
   }
   if (report.surface) {
     AddSurface("Surface, whole", report.surface->whole, rows);

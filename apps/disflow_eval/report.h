@@ -39,6 +39,7 @@ struct Report {
   EstimateTable estimates;
   AlignedTrajectory run;  ///< Points into `estimates`.
   PoseMetrics poses;
+  TruthDeviation truth_std;  ///< Counted in both consistencies.
   std::optional<Consistency> pose_consistency;
   std::optional<Consistency> twist_consistency;
   std::vector<StageTiming> stages;

@@ -79,8 +79,17 @@ std::string FormatJson(const Report& report) {
     json["linear_velocity_mps"] = ToJson(m.linear_mps);
     json["angular_velocity_degps"] = ToJson(m.angular_rps, kDegrees);
   }
-  if (report.pose_consistency) json["pose_consistency"] = ToJson(*report.pose_consistency);
-  if (report.twist_consistency) json["twist_consistency"] = ToJson(*report.twist_consistency);
+  const TruthDeviation& truth = report.truth_std;
+  if (report.pose_consistency) {
+    json["pose_consistency"] = ToJson(*report.pose_consistency);
+    json["pose_consistency"]["truth_std_m"] = truth.position_m;
+    json["pose_consistency"]["truth_std_deg"] = kDegrees * truth.rotation_rad;
+  }
+  if (report.twist_consistency) {
+    json["twist_consistency"] = ToJson(*report.twist_consistency);
+    json["twist_consistency"]["truth_std_mps"] = truth.linear_mps;
+    json["twist_consistency"]["truth_std_degps"] = kDegrees * truth.angular_rps;
+  }
   if (report.surface) {
     json["surface"] = {{"mesh", report.mesh},
                        {"whole", ToJson(report.surface->whole)},

@@ -151,6 +151,25 @@ class Research(unittest.TestCase):
             self.assertEqual(lines[name], [f"{factor * report[key]['rmse']:.3f}" for report in (self.own, other)])
         self.assertEqual(lines[""], ["run", "other"])
 
+    def test_what_the_truth_is_off_by_is_counted_in_the_consistency_of_pose_and_twist(self):
+        self.evaluate(self.csv, "off", "--truth-pose-std", "0.002", "1.5", "--truth-twist-std", "0.03", "20")
+        off = self.report("off")
+        for what, stds in (("pose", {"truth_std_m": 0.002, "truth_std_deg": 1.5}), ("twist", {"truth_std_mps": 0.03, "truth_std_degps": 20})):
+            exact, counted = (report[f"{what}_consistency"] for report in (self.own, off))
+            for key, value in stds.items():
+                self.assertEqual(exact[key], 0)
+                self.assertAlmostEqual(counted[key], value, delta=1e-12)
+            self.assertLess(counted["nees_mean"], 0.9 * exact["nees_mean"])
+            self.assertEqual(counted["frames"], exact["frames"])
+        self.assertEqual(off["translation_m"], self.own["translation_m"])
+
+    def test_a_deviation_of_the_truth_that_is_none_is_refused_with_its_name(self):
+        for words in (("0.001",), ("0.001", "nan"), ("-0.001", "0.5"), ("inf", "0.5"), ("0.001", "x")):
+            words = [BIN / "disflow_eval", self.sequence, "--csv", self.csv, "--truth-pose-std", *words]
+            done = subprocess.run(words, capture_output=True, text=True, check=False)
+            self.assertEqual(done.returncode, 2, words)
+            self.assertIn("--truth-pose-std", done.stderr)
+
     def test_latex_table_holds_the_figures_and_the_best_is_bold(self):
         text = (self.folder / "table.tex").read_text()
         rows = [line.removesuffix(" \\\\").split(" & ") for line in text.splitlines() if line.startswith(("run", "other"))]

@@ -72,6 +72,54 @@ TEST(ConsistencyTest, TruthfulCovariance_IsConsistentWhereverTheTrackersOriginLi
   }
 }
 
+TEST(ConsistencyTest, TruthThatIsOffAsFarAsIsSaid_DoesNotMakeATruthfulCovarianceLookTooSmall) {
+  const TruthDeviation off{0.004, 0.03, 0.05, 0.2};
+  std::mt19937 generator(11);
+  std::normal_distribution<double> normal;
+  const auto draw = [&](double std) {
+    return Vec3d(std * normal(generator), std * normal(generator), std * normal(generator));
+  };
+  // The aligned frame's error is in all frames of a run, so that the mean needs many runs.
+  double pose = 0.0;
+  double pose_as_if_exact = 0.0;
+  double twist = 0.0;
+  constexpr int kRuns = 1500;
+  for (int k = 0; k < kRuns; ++k) {
+    MadeUpRun made = MakeRun(2);
+    made.estimates.rows[1].pose_covariance = Diagonal(kPositionStd_m, kRotationStd_rad);
+    made.estimates.rows[1].twist_covariance = Diagonal(0.02, 0.1);
+    EstimateRow& row = made.estimates.rows[1];
+    row.T_co = EstimatedPose(Mat3d(ExpSo3(draw(kRotationStd_rad)) * row.T_co.rotation()),
+                             Vec3d(row.T_co.translation() + draw(kPositionStd_m)));
+    row.twist.linear_mps += draw(0.02);
+    row.twist.angular_rps += draw(0.1);
+    for (std::size_t i = 0; i < 2; ++i) {
+      TruePose& T_ct = made.truth.T_ct[i];
+      T_ct = TruePose(Mat3d(ExpSo3(draw(off.rotation_rad)) * T_ct.rotation()),
+                      Vec3d(T_ct.translation() + draw(off.position_m)));
+      made.truth.twists[i].linear_mps += draw(off.linear_mps);
+      made.truth.twists[i].angular_rps += draw(off.angular_rps);
+    }
+    const AlignedTrajectory run = Align(made.truth, made.estimates);
+    pose += EvaluatePoseConsistency(run, off)->nees.at(0) / kRuns;
+    pose_as_if_exact += EvaluatePoseConsistency(run)->nees.at(0) / kRuns;
+    twist += EvaluateTwistConsistency(run, off)->nees.at(0) / kRuns;
+  }
+  // Standard error of the mean of 1500 chi-square(6) values: sqrt(12 / 1500) = 0.09.
+  EXPECT_NEAR(pose, 6.0, 0.4);
+  EXPECT_NEAR(twist, 6.0, 0.4);
+  EXPECT_GT(pose_as_if_exact, 40.0);
+}
+
+TEST(ConsistencyTest, TruthThatIsOff_DoesNotMakeACovarianceOfWhatIsNone) {
+  MadeUpRun made = MakeRun(2);
+  made.estimates.rows[1].pose_covariance = -Mat6d::Identity();
+  const auto result =
+      EvaluatePoseConsistency(Align(made.truth, made.estimates), TruthDeviation{10.0, 10.0, 0, 0});
+  ASSERT_TRUE(result.has_value());
+  EXPECT_EQ(result->singular, 1U);
+}
+
 TEST(ConsistencyTest, TooSmallCovariance_ShowsAsOverconfident) {
   MadeUpRun made = MakeRun(500);
   AddNoise(made, 0.5);
