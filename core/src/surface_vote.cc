@@ -28,11 +28,17 @@ bool GoesOn(const SurfaceVote& vote) noexcept {
   constexpr int kMinEnds = 8;
   // Of a thing that was cut off nothing goes on, of a table under it a tenth and more of its rows.
   constexpr int kMinPercent = 3;
-  return vote.ends >= kMinEnds && 100 * vote.ends >= kMinPercent * vote.runs;
+  // Both ends of a row count, and of a column.
+  const int ends = vote.ends + vote.column_ends;
+  return ends >= kMinEnds && 200 * ends >= kMinPercent * (2 * vote.rows + vote.columns);
 }
 
-bool ChooseOfCut(SurfaceVote* votes, int count) noexcept {
-  // New surface that comes into view in one frame is less of the object.
+bool IsCrumb(const SurfaceVote& vote, int pixels_of_other) noexcept {
+  return 100 * vote.pixels < kCrumbPercent * pixels_of_other;
+}
+
+bool ChooseOfCut(SurfaceVote* votes, int count, float most_new) noexcept {
+  // Of what was in view before, noise and the margins about it leave more unknown to no model.
   constexpr int kMinKnownPercent = 85;
   int explained = 0;
   SurfaceVote own;
@@ -44,13 +50,13 @@ bool ChooseOfCut(SurfaceVote* votes, int count) noexcept {
     own.pixels = std::max(own.pixels, votes[c].pixels);
   }
   if (explained == 0) return true;
-  const bool cut_off =
-      2 * own.explained > explained && 100 * own.explained >= kMinKnownPercent * own.probed;
+  const float in_view_before = static_cast<float>(own.probed) - most_new;
+  const bool cut_off = 2 * own.explained > explained &&
+                       static_cast<float>(100 * own.explained) >= kMinKnownPercent * in_view_before;
   for (int c = 0; c < count; ++c) {
     SurfaceVote& vote = votes[c];
-    vote.chosen =
-        cut_off ? vote.chosen && !GoesOn(vote) && 100 * vote.pixels >= kCrumbPercent * own.pixels
-                : 100 * vote.explained >= kCrumbPercent * explained;
+    vote.chosen = cut_off ? vote.chosen && !GoesOn(vote) && !IsCrumb(vote, own.pixels)
+                          : 100 * vote.explained >= kCrumbPercent * explained;
   }
   return cut_off;
 }
@@ -72,8 +78,7 @@ int LargestThatEnds(const SurfaceVote* votes, int count) noexcept {
     if (votes[c].pixels > votes[largest].pixels) largest = c;
     if (!GoesOn(votes[c]) && (own < 0 || votes[c].pixels > votes[own].pixels)) own = c;
   }
-  const bool is_crumb = own < 0 || 100 * votes[own].pixels < kCrumbPercent * votes[largest].pixels;
-  return is_crumb ? largest : own;
+  return own < 0 || IsCrumb(votes[own], votes[largest].pixels) ? largest : own;
 }
 
 }  // namespace disflow

@@ -201,6 +201,7 @@ Status Tracker<Limits>::Observe(const DepthFrame& frame, Estimate& estimate,
   ModelPrior prior;
   prior.nearest_in_vain = nearest_in_vain_;
   if (started_) {
+    contact_.turned_rad += TurnBetween(T_oc_previous_.rotation(), T_oc_.rotation()).norm();
     // A mask is then the better guide.
     prior = {!(doubtful && frame.mask.given()),
              doubtful,

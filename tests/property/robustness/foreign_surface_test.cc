@@ -89,6 +89,16 @@ class ForeignSurface : public ::testing::Test {
   std::vector<Vec3d> surface_;
 };
 
+TEST_F(ForeignSurface, ArmThatIsNearerFromTheFirstImageOn_IsNotTakenForTheObject) {
+  host::SimulationOptions options = Box(60);
+  options.occluder = host::OccluderKind::kArm;
+  options.mask = host::MaskKind::kNone;
+  options.motion = host::MotionKind::kFast;
+  Track(options);
+  ExpectGoodTrack();
+  EXPECT_LT(FalseShare(), 0.006);
+}
+
 TEST_F(ForeignSurface, TouchingHand_DoesNotBecomePartOfTheObject) {
   Track(TouchedBottle());
   ExpectGoodTrack(kBottlesTurn_deg);

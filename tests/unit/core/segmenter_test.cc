@@ -1,69 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <gtest/gtest.h>
+#include "segmenter_scene.h"
 
-#include <algorithm>
-#include <cmath>
-#include <memory>
-
-#include "depth_scene.h"
-#include "disflow/depth/segmenter_choice_impl.h"
-#include "disflow/depth/segmenter_impl.h"
-#include "disflow/limits.h"
-
-namespace disflow {
+namespace disflow::testing {
 namespace {
-
-using testing::Covers;
-using testing::DepthScene;
-
-constexpr PixelBox kObject{60, 30, 100, 70};
-constexpr float kObject_m = 0.8F;
-constexpr PixelBox kOther{20, 30, 40, 60};
-
-/// The object's front in the camera frame.
-Vec3 Corner(int u, int v) {
-  return DepthScene::camera().BackProject(static_cast<float>(u), static_cast<float>(v), kObject_m);
-}
-
-/// Before there is a model.
-class FirstFrame : public ::testing::Test {
- protected:
-  Status Segment(const DepthScene& scene) {
-    const auto explains = [this](const Vec3& x_c) {
-      ++asked_;
-      return explains_(x_c);
-    };
-    return segmenter_->Segment(scene.frame(), config_, prior_, explains, *object_, overrun_,
-                               counters_);
-  }
-  /// Of the pixels of a box, those that are the object.
-  [[nodiscard]] double Share(const PixelBox& box) const {
-    int inside = 0;
-    for (int v = box.v_min; v < box.v_max; ++v)
-      inside += object_->row(v).CountRun(box.u_min, box.u_max);
-    return static_cast<double>(inside) / (box.width() * box.height());
-  }
-  void ExpectExactly(const PixelBox& box) const {
-    EXPECT_EQ(Share(box), 1.0);
-    EXPECT_EQ(object_->count(), box.width() * box.height());
-  }
-
-  SegmenterConfig config_;
-  ModelPrior prior_;
-  Counters counters_;
-  bool (*explains_)(const Vec3&) = [](const Vec3&) { return false; };
-  int asked_ = 0;
-  using SegmenterType = Segmenter<profiles::Micro>;
-  std::unique_ptr<SegmenterType> segmenter_ = std::make_unique<SegmenterType>();
-  std::unique_ptr<SegmenterType::Mask> object_ = std::make_unique<SegmenterType::Mask>();
-  MaskOverrun<SegmenterType::Mask> overrun_;
-};
-
-DepthScene ObjectOverATable() {
-  DepthScene scene(2.2F);
-  scene.Table().Rectangle(kObject, kObject_m);
-  return scene;
-}
 
 TEST_F(FirstFrame, NearestThing_IsTheObjectWithoutItsTable) {
   ASSERT_EQ(Segment(ObjectOverATable()), Status::kOk);
@@ -246,24 +185,6 @@ TEST_F(FirstFrame, NoDepth_IsRefused) {
   EXPECT_EQ(Segment(DepthScene(0.0F)), Status::kNoValidDepth);
 }
 
-/// With a model: a plate as large as the object, in the predicted place.
-class LaterFrame : public FirstFrame {
- protected:
-  LaterFrame() {
-    prior_.known = true;
-    const Vec3 low = Corner(kObject.u_min, kObject.v_min);
-    const Vec3 high = Corner(kObject.u_max, kObject.v_max);
-    prior_.T_oc = PoseCameraFromObject(Mat3::Identity(), Vec3(0.5F * (low + high))).Inverse();
-    prior_.box_max_m = 0.5F * (high - low) + Vec3(0.0F, 0.0F, 0.02F);
-    prior_.box_min_m = -prior_.box_max_m;
-    explains_ = [](const Vec3& x_c) {
-      const Vec2 px = DepthScene::camera().Project(x_c);
-      return Covers(kObject, static_cast<int>(px.x() + 0.5F), static_cast<int>(px.y() + 0.5F)) &&
-             std::abs(x_c.z() - kObject_m) < 0.01F;
-    };
-  }
-};
-
 TEST_F(LaterFrame, ObjectAlone_IsFoundWhereItIsPredicted) {
   ASSERT_EQ(Segment(ObjectOverATable()), Status::kOk);
   ExpectExactly(kObject);
@@ -274,78 +195,6 @@ TEST_F(LaterFrame, ThingFarFromTheModel_IsNotTheObject) {
   scene.Rectangle(kOther, 0.4F);
   ASSERT_EQ(Segment(scene), Status::kOk);
   ExpectExactly(kObject);
-}
-
-constexpr float kRise_px = 12.0F;
-
-/// A board that lies in a heap, which rises about it and goes on out of the image, not as a plane.
-/// @param slope Of the heap beside the board, m/m.
-DepthScene ObjectInAHeap(float slope = 2.0F) {
-  constexpr float kPixel_m = kObject_m / DepthScene::kFocal_px;
-  DepthScene scene(2.2F);
-  scene.Draw(DepthScene::image(), [slope](int u, int v) {
-    const int beside_px = std::max(
-        {kObject.u_min - u, u - kObject.u_max + 1, kObject.v_min - v, v - kObject.v_max + 1, 0});
-    const float risen_px = std::min(static_cast<float>(beside_px), kRise_px);
-    const float waves =
-        std::sin(static_cast<float>(u) / 15.0F) * std::sin(static_cast<float>(v) / 13.0F);
-    return kObject_m - slope * kPixel_m * risen_px + 0.02F * waves * (risen_px / kRise_px);
-  });
-  return scene;
-}
-
-TEST_F(FirstFrame, SeedOnAThingInAHeap_ChoosesTheThingAlone) {
-  config_.seed_u_px = 80;
-  config_.seed_v_px = 50;
-  ASSERT_EQ(Segment(ObjectInAHeap()), Status::kOk);
-  EXPECT_GT(Share({64, 34, 96, 66}), 0.95);
-  EXPECT_LT(object_->count(), 1.1 * kObject.width() * kObject.height());
-  EXPECT_TRUE(segmenter_->contact().touches);
-}
-
-TEST_F(FirstFrame, ThingInTheAir_TouchesNothing) {
-  ASSERT_EQ(Segment(ObjectOverATable()), Status::kOk);
-  EXPECT_FALSE(segmenter_->contact().touches);
-}
-
-TEST_F(LaterFrame, ObjectInAHeap_IsCutOffAndDecided) {
-  for (const bool touched_before : {false, true}) {
-    prior_.contact.touches = touched_before;
-    ASSERT_EQ(Segment(ObjectInAHeap()), Status::kOk);
-    EXPECT_GT(Share({64, 34, 96, 66}), 0.95);
-    EXPECT_LT(object_->count(), 1.1 * kObject.width() * kObject.height());
-    EXPECT_TRUE(segmenter_->contact().touches);
-    EXPECT_FALSE(segmenter_->contact().merged);
-  }
-}
-
-TEST_F(LaterFrame, ObjectThatPassesSmoothlyIntoAHeap_IsWhatTheModelKnowsAndMerged) {
-  prior_.contact.touches = true;
-  ASSERT_EQ(Segment(ObjectInAHeap(0.1F)), Status::kOk);
-  EXPECT_GT(Share(kObject), 0.95);
-  EXPECT_LT(object_->count(), 2 * kObject.width() * kObject.height());
-  EXPECT_TRUE(segmenter_->contact().merged);
-}
-
-TEST_F(LaterFrame, ObjectThatLeftItsTable_TouchesNothingAnyMore) {
-  prior_.contact.touches = true;
-  ASSERT_EQ(Segment(ObjectOverATable()), Status::kOk);
-  ExpectExactly(kObject);
-  EXPECT_FALSE(segmenter_->contact().touches);
-}
-
-TEST_F(LaterFrame, ObjectThatMovedOutOfTheMargin_IsWhatLiesWithinItAndTouchesNothing) {
-  constexpr int kShift_px = 11;
-  const auto reach_px =
-      static_cast<int>(config_.model_margin_m * DepthScene::kFocal_px / kObject_m);
-  ASSERT_GT(kShift_px, reach_px);
-  const PixelBox moved{kObject.u_min + kShift_px, kObject.v_min, kObject.u_max + kShift_px,
-                       kObject.v_max};
-  DepthScene scene(2.2F);
-  ASSERT_EQ(Segment(scene.Rectangle(moved, kObject_m)), Status::kOk);
-  EXPECT_EQ(Share({moved.u_min, moved.v_min, kObject.u_max + reach_px, moved.v_max}), 1.0);
-  EXPECT_EQ(Share({kObject.u_max + reach_px + 2, moved.v_min, moved.u_max, moved.v_max}), 0.0);
-  EXPECT_FALSE(segmenter_->contact().touches);
 }
 
 TEST_F(LaterFrame, ThingBesideTheModelAtAnotherDepth_IsNotTheObject) {
@@ -422,28 +271,6 @@ TEST_F(LaterFrame, Doubt_WidensTheReach) {
   EXPECT_EQ(Share(far_edge), 1.0);
 }
 
-TEST_F(LaterFrame, NewFaceOfALargeObject_IsNoTableThatItStandsOn) {
-  // It reaches 7 cm out of what is known: more than twice the margin, less than 0.6 of 0.15 m. Not
-  // flat, or it would be taken away as a plane.
-  DepthScene scene(2.2F);
-  scene.Draw({kObject.u_min, kObject.v_min, kObject.u_max + 14, kObject.v_max}, [](int u, int v) {
-    return kObject_m +
-           0.02F * std::sin(static_cast<float>(u) / 7.0F) * std::sin(static_cast<float>(v) / 6.0F);
-  });
-  explains_ = [](const Vec3& x_c) {
-    const Vec2 px = DepthScene::camera().Project(x_c);
-    return Covers(kObject, static_cast<int>(px.x() + 0.5F), static_cast<int>(px.y() + 0.5F));
-  };
-  ASSERT_EQ(Segment(scene), Status::kOk);
-  EXPECT_EQ(Share(kObject), 1.0);
-  EXPECT_FALSE(segmenter_->contact().touches);
-  // Of a model of half the size it reaches out farther than such a thing is likely to be deep.
-  prior_.box_max_m *= 0.5F;
-  prior_.box_min_m *= 0.5F;
-  ASSERT_EQ(Segment(scene), Status::kOk);
-  EXPECT_TRUE(segmenter_->contact().touches);
-}
-
 TEST_F(LaterFrame, LongerTimeBetweenImages_WidensTheReachByWhatAVelocityMayChange) {
   DepthScene scene(2.2F);
   constexpr float kShift_m = 0.045F;
@@ -461,4 +288,4 @@ TEST_F(LaterFrame, LongerTimeBetweenImages_WidensTheReachByWhatAVelocityMayChang
 }
 
 }  // namespace
-}  // namespace disflow
+}  // namespace disflow::testing

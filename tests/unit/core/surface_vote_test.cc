@@ -15,7 +15,7 @@ SurfaceVote Own() {
   vote.pixels = 6000;
   vote.probed = 100;
   vote.explained = 97;
-  vote.runs = 250;
+  vote.rows = 250;
   return vote;
 }
 
@@ -24,7 +24,7 @@ SurfaceVote Table() {
   vote.pixels = 30000;
   vote.probed = 500;
   vote.explained = 40;
-  vote.runs = 700;
+  vote.rows = 700;
   vote.ends = 120;
   return vote;
 }
@@ -70,6 +70,26 @@ TEST(SurfaceVote, SurfaceOfWhichTheModelKnowsTooLittle_IsNotCutOff) {
   std::array votes{leaking};
   EXPECT_FALSE(ChooseOfCut(votes.data(), 1));
   EXPECT_TRUE(votes[0].chosen);
+}
+
+TEST(SurfaceVote, SurfaceThatATurnMayHaveBroughtIntoView_DoesNotMakeItUnknown) {
+  SurfaceVote turned = Own();
+  turned.explained = 80;
+  std::array votes{turned};
+  // As many as are missing of 85 %, and one less.
+  const float missing = static_cast<float>(turned.probed) - 80.0F / 0.85F;
+  EXPECT_FALSE(ChooseOfCut(votes.data(), 1, missing - 1.0F));
+  EXPECT_TRUE(ChooseOfCut(votes.data(), 1, missing + 1.0F));
+}
+
+TEST(SurfaceVote, ArmFromBelow_GoesOnByItsColumns) {
+  SurfaceVote held = Own();
+  held.columns = 120;
+  EXPECT_FALSE(GoesOn(held));
+  held.column_ends = 40;
+  EXPECT_TRUE(GoesOn(held));
+  held.column_ends = 7;
+  EXPECT_FALSE(GoesOn(held)) << "a few pixels of noise";
 }
 
 TEST(SurfaceVote, WhereTheModelExplainsNothing_TheChoiceStays) {

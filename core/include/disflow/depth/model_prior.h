@@ -7,8 +7,9 @@ namespace disflow {
 
 /// How an object touches what is around it.
 struct ObjectContact {
-  bool touches = false;  ///< It stands on something or leans against it.
-  bool merged = false;   ///< And could not be told from that: what is new may not be its own.
+  bool touches = false;     ///< It stands on something or leans against it.
+  bool merged = false;      ///< And could not be told from that: what is new may not be its own.
+  float turned_rad = 0.0F;  ///< By how much it has turned since it could; 0 if it can.
 };
 
 /// What is known of the object before a frame is segmented: its predicted pose and extent.
@@ -19,7 +20,7 @@ struct ModelPrior {
   PoseObjectFromCamera T_oc;      ///< Predicted.
   Vec3 box_min_m = Vec3::Zero();  ///< Axis-aligned bounds of the model, object frame.
   Vec3 box_max_m = Vec3::Zero();
-  ObjectContact contact;  ///< In the last frame.
+  ObjectContact contact;  ///< In the last frame, but turned_rad: up to this one.
   /// How far the object may have moved in the image since its mask was made.
   float motion_px = 0.0F;
   /// Before it is known: what was nearest, and nothing else, was tried last, in vain.

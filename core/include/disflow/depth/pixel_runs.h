@@ -102,6 +102,13 @@ class PixelRuns {
     for (int i = 0; i < count_; ++i) visit(static_cast<int>(run(run(i).parent).pixels), run(i));
   }
 
+  /// The same from the last row to the first.
+  template <class Visitor>
+  void ForEachRunFromBelow(Visitor&& visit) const noexcept {
+    for (int i = count_ - 1; i >= 0; --i)
+      visit(static_cast<int>(run(run(i).parent).pixels), run(i));
+  }
+
  private:
   using Row = std::array<float, static_cast<std::size_t>(kMaxWidth)>;
   static constexpr int kPart_px = 32;  ///< Of a row, looked at together.

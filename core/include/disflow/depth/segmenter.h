@@ -100,6 +100,8 @@ class Segmenter {
   /// Whether a surface that may be the object's goes on where the object cannot be.
   [[nodiscard]] bool ObjectGoesOn() noexcept;
 
+  [[nodiscard]] static float MostNew(const DepthFrame& frame, const ModelPrior& prior) noexcept;
+
   template <class Explains>
   void ChooseSurfaces(const DepthFrame& frame, const SegmenterConfig& config,
                       const ModelPrior& prior, Explains& explains, const Mask& mask) noexcept;
@@ -110,9 +112,9 @@ class Segmenter {
   void ChooseMasked(const DepthFrame& frame, const SegmenterConfig& config, const ModelPrior& prior,
                     Explains& explains, const Mask& mask) noexcept;
 
-  /// Before a model exists and without a mask: what lies under the seed pixel, or the nearest.
-  [[nodiscard]] int ChooseFirst(const DepthFrame& frame,
-                                const SegmenterConfig& config) const noexcept;
+  /// Before a model exists and without a mask: what lies under the seed pixel, or the nearest; if
+  /// that goes on, the nearest that does not.
+  [[nodiscard]] int ChooseFirst(const DepthFrame& frame, const SegmenterConfig& config) noexcept;
 
   /// Asks the model about every few points of a run.
   template <class Explains>

@@ -52,9 +52,23 @@ std::uint32_t Segmenter<Limits>::LookAround(const DepthFrame& frame, const Segme
     }
   }
   contact_.touches = goes_on({.margins = far, .cut = true});
-  if (prior.known && !prior.doubtful)
-    contact_.merged = !ChooseOfCut(votes_.data(), surfaces_.components());
+  if (prior.known && !prior.doubtful) {
+    contact_.merged = !ChooseOfCut(votes_.data(), surfaces_.components(), MostNew(frame, prior));
+    if (contact_.merged) contact_.turned_rad = prior.contact.turned_rad;
+  }
   return draw();
+}
+
+/// How many points that are probed may have come into view since something could be learnt. A body
+/// as long as its bounds that turns about its long axis shows a strip as wide as the turn times its
+/// depth, see kFacePerSize: of a thing that was held edge-on, two frames may show a quarter anew.
+template <class Limits>
+float Segmenter<Limits>::MostNew(const DepthFrame& frame, const ModelPrior& prior) noexcept {
+  const float half_diagonal_m = 0.5F * (prior.box_max_m - prior.box_min_m).norm();
+  const float strip_m = prior.contact.turned_rad * kFacePerSize * half_diagonal_m;
+  const float away_m = std::max(prior.T_oc.Inverse().translation().z(), half_diagonal_m);
+  const float step_m = static_cast<float>(kProbeStepPx) * away_m / frame.camera.fx_px;
+  return strip_m * 2.0F * half_diagonal_m / (step_m * step_m);
 }
 
 template <class Limits>
@@ -71,25 +85,47 @@ void Segmenter<Limits>::FindEnds(const DepthFrame& frame, const SegmenterConfig&
                                  const ModelPrior& prior) noexcept {
   const DepthReader depth(frame.depth, config.min_range_m, config.max_range_m);
   const ModelGate gate = GateOf(frame, config, prior);
-  const auto goes_on = [&](int u, int u_beyond, int v) {
+  const auto goes_on = [&](int u, int v, int u_beyond, int v_beyond) {
     const float here_m = depth.At(u, v);
-    float beyond_m = depth.AtOrZero(u_beyond, v);
-    const bool outside = u_beyond < box_.u_min || u_beyond >= box_.u_max;
+    float beyond_m = depth.AtOrZero(u_beyond, v_beyond);
+    const bool outside = u_beyond < box_.u_min || u_beyond >= box_.u_max || v_beyond < box_.v_min ||
+                         v_beyond >= box_.v_max;
     if (beyond_m <= 0.0F) return !prior.known && outside;
     if (std::abs(beyond_m - here_m) > config.depth_jump_ratio * std::min(here_m, beyond_m))
       return false;
-    planes_(v, u_beyond, u_beyond + 1, &beyond_m);
+    planes_(v_beyond, u_beyond, u_beyond + 1, &beyond_m);
     if (beyond_m <= 0.0F) return false;
     if (!prior.known) return outside;
-    return !gate.Accepts(
-        frame.camera.BackProject(static_cast<float>(u_beyond), static_cast<float>(v), beyond_m));
+    return !gate.Accepts(frame.camera.BackProject(static_cast<float>(u_beyond),
+                                                  static_cast<float>(v_beyond), beyond_m));
   };
   surfaces_.ForEachRun([&](int c, const PixelRun& run) {
     if (c == Surfaces::kNoComponent) return;
-    ++vote(c).runs;
-    vote(c).ends += int{goes_on(run.u_begin, run.u_begin - 1, run.v)} +
-                    int{goes_on(run.u_end - 1, run.u_end, run.v)};
+    ++vote(c).rows;
+    vote(c).ends += int{goes_on(run.u_begin, run.v, run.u_begin - 1, run.v)} +
+                    int{goes_on(run.u_end - 1, run.v, run.u_end, run.v)};
   });
+  // An arm that holds the object from below goes on from one row to the next.
+  const auto look_beyond = [&](int v_step) {
+    return [&, v_step, next = typename Mask::Row{}, row = typename Mask::Row{}, v = -1](
+               int c, const PixelRun& run) mutable {
+      if (run.v != v) {
+        next = row;
+        if (run.v + v_step != v) next.Clear();
+        row.Clear();
+        v = run.v;
+      }
+      row.SetRun(run.u_begin, run.u_end);
+      if (c == Surfaces::kNoComponent) return;
+      next.ForEachGap(run.u_begin, run.u_end, [&](int u_begin, int u_end) {
+        vote(c).columns += u_end - u_begin;
+        for (int u = u_begin; u < u_end; ++u)
+          vote(c).column_ends += int{goes_on(u, v, u, v + v_step)};
+      });
+    };
+  };
+  surfaces_.ForEachRun(look_beyond(-1));
+  surfaces_.ForEachRunFromBelow(look_beyond(1));
 }
 
 template <class Limits>
@@ -153,21 +189,29 @@ void Segmenter<Limits>::ChooseMasked(const DepthFrame& frame, const SegmenterCon
 
 template <class Limits>
 int Segmenter<Limits>::ChooseFirst(const DepthFrame& frame,
-                                   const SegmenterConfig& config) const noexcept {
+                                   const SegmenterConfig& config) noexcept {
   const DepthReader depth(frame.depth, config.min_range_m, config.max_range_m);
   if (config.seed_u_px >= 0 && config.seed_v_px >= 0)
     return surfaces_.ComponentAt(config.seed_u_px, config.seed_v_px,
                                  std::max(config.seed_reach_px, valleys_.reach_px()));
-  int best = Surfaces::kNoComponent;
-  float best_score = 0.0F;
-  for (int c = 0; c < surfaces_.components(); ++c) {
-    const PixelRun& first = surfaces_.first_run(c);
-    const float score = 1.0F / std::max(depth.At(first.u_begin, first.v), 1e-3F);
-    if (score <= best_score) continue;
-    best_score = score;
-    best = c;
-  }
-  return best;
+  const auto nearest = [&](const auto& may_be) {
+    int best = Surfaces::kNoComponent;
+    float best_m = 0.0F;
+    for (int c = 0; c < surfaces_.components(); ++c) {
+      const PixelRun& first = surfaces_.first_run(c);
+      const float depth_m = depth.At(first.u_begin, first.v);
+      if (!may_be(c) || (best != Surfaces::kNoComponent && depth_m >= best_m)) continue;
+      best_m = depth_m;
+      best = c;
+    }
+    return best;
+  };
+  const int nearest_of_all = nearest([](int) { return true; });
+  if (!manner_.cut || nearest_of_all == Surfaces::kNoComponent) return nearest_of_all;
+  // An arm that reaches into the image is often nearer than what is to be tracked.
+  const int pixels = vote(nearest_of_all).pixels;
+  const int ends = nearest([&](int c) { return !GoesOn(vote(c)) && !IsCrumb(vote(c), pixels); });
+  return ends == Surfaces::kNoComponent ? nearest_of_all : ends;
 }
 
 }  // namespace disflow

@@ -7,11 +7,13 @@ namespace disflow {
 struct SurfaceVote {
   bool chosen = false;
   int pixels = 0;
-  int masked = 0;     ///< Its pixels within the mask.
-  int probed = 0;     ///< Its points that the model was asked about.
-  int explained = 0;  ///< Of these, those near known surface.
-  int runs = 0;       ///< Its runs of pixels in image rows.
-  int ends = 0;       ///< Ends of these where it goes on to where the object cannot be.
+  int masked = 0;       ///< Its pixels within the mask.
+  int probed = 0;       ///< Its points that the model was asked about.
+  int explained = 0;    ///< Of these, those near known surface.
+  int rows = 0;         ///< Its runs of pixels in image rows.
+  int ends = 0;         ///< Ends of these where it goes on to where the object cannot be.
+  int columns = 0;      ///< Its pixels above or below which there is none of it.
+  int column_ends = 0;  ///< Of these, those where it goes on likewise.
 };
 
 /// Whether a surface is the object's, once there is a model and without a mask.
@@ -23,12 +25,16 @@ struct SurfaceVote {
 /// Whether a surface goes on where the object cannot be, as that of a table does.
 [[nodiscard]] bool GoesOn(const SurfaceVote& vote) noexcept;
 
+/// Whether a surface is as small beside another one as what noise cuts off of it.
+[[nodiscard]] bool IsCrumb(const SurfaceVote& vote, int pixels_of_other) noexcept;
+
 /// Of surfaces that were cut at their valleys, those that still go on are what the object stands
 /// on, unless the model explains little of the others: then the object could not be cut off, and
 /// all that the model explains some of is chosen.
 /// @param votes Of `count` surfaces, chosen as if nothing was near the object.
+/// @param most_new So many of the object's points may have come into view by its turn.
 /// @return Whether the object was cut off.
-[[nodiscard]] bool ChooseOfCut(SurfaceVote* votes, int count) noexcept;
+[[nodiscard]] bool ChooseOfCut(SurfaceVote* votes, int count, float most_new = 0.0F) noexcept;
 
 /// Chooses LargestThatEnds() instead of what was chosen if that is nothing, or crumbs of which the
 /// model was not even asked: the prediction is far off then.
