@@ -141,6 +141,18 @@ TEST_F(FirstFrame, ThingThatReachesOutOfTheImage_IsTheObjectIfNothingElseCanBe) 
   }
 }
 
+TEST_F(FirstFrame, RegionDrawnTooTightly_StillMeansTheNearestThingInIt) {
+  DepthScene scene(2.2F);
+  scene.Rectangle(kObject, kObject_m).Rectangle({110, 40, 125, 60}, 1.2F);
+  config_.roi_x_px = kObject.u_min + 4;
+  config_.roi_y_px = kObject.v_min + 4;
+  config_.roi_width_px = 70;
+  config_.roi_height_px = kObject.height() - 8;
+  ASSERT_EQ(Segment(scene), Status::kOk);
+  EXPECT_GT(Share({kObject.u_min + 6, kObject.v_min + 6, kObject.u_max, kObject.v_max - 6}), 0.95);
+  EXPECT_EQ(Share({110, 40, 125, 60}), 0.0);
+}
+
 TEST_F(FirstFrame, SeedOnAnArm_ChoosesIt) {
   config_.seed_u_px = 120;
   config_.seed_v_px = 90;

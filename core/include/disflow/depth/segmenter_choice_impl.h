@@ -207,7 +207,11 @@ int Segmenter<Limits>::ChooseFirst(const DepthFrame& frame,
     return best;
   };
   const int nearest_of_all = nearest([](int) { return true; });
-  if (!manner_.cut || nearest_of_all == Surfaces::kNoComponent) return nearest_of_all;
+  // Who draws a region may draw it too tightly; there the nearest is what was meant.
+  const bool whole_image =
+      box_.width() == frame.depth.width_px && box_.height() == frame.depth.height_px;
+  if (!manner_.cut || !whole_image || nearest_of_all == Surfaces::kNoComponent)
+    return nearest_of_all;
   // An arm that reaches into the image is often nearer than what is to be tracked.
   const int pixels = vote(nearest_of_all).pixels;
   const int ends = nearest([&](int c) { return !GoesOn(vote(c)) && !IsCrumb(vote(c), pixels); });
