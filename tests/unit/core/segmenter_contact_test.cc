@@ -131,6 +131,19 @@ TEST_F(FirstFrame, ArmThatReachesInAndIsNearer_IsNotTheObject) {
   }
 }
 
+TEST_F(FirstFrame, ArmThatIsCutJustBeforeTheBorder_IsNotTheObjectEither) {
+  // Where noise or a sleeve makes a fold, which leaves a piece of the arm that ends in the image.
+  constexpr int kFold_v = DepthScene::kHeight_px - 4;
+  DepthScene scene(2.2F);
+  scene.Rectangle(kObject, kObject_m);
+  AddArm(scene, kArms[0]);
+  scene.Draw({110, kFold_v, 130, DepthScene::kHeight_px},
+             [](int, int v) { return kArm_m - 0.007F * static_cast<float>(v - kFold_v); });
+  ASSERT_EQ(Segment(scene), Status::kOk);
+  EXPECT_EQ(Share(kArms[0]), 0.0);
+  ExpectExactly(kObject);
+}
+
 TEST_F(FirstFrame, ThingThatReachesOutOfTheImage_IsTheObjectIfNothingElseCanBe) {
   for (const PixelBox& arm : kArms) {
     DepthScene scene(2.2F);

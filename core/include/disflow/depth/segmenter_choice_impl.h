@@ -85,17 +85,21 @@ void Segmenter<Limits>::FindEnds(const DepthFrame& frame, const SegmenterConfig&
                                  const ModelPrior& prior) noexcept {
   const DepthReader depth(frame.depth, config.min_range_m, config.max_range_m);
   const ModelGate gate = GateOf(frame, config, prior);
+  // A fold beside the border, with what lies in it, ends no surface: noise makes such folds.
+  const int border_px = !prior.known && manner_.cut ? 2 * valleys_.reach_px() : 0;
+  const auto is_outside = [this](int u, int v, int px) {
+    return u < box_.u_min + px || u >= box_.u_max - px || v < box_.v_min + px ||
+           v >= box_.v_max - px;
+  };
   const auto goes_on = [&](int u, int v, int u_beyond, int v_beyond) {
     const float here_m = depth.At(u, v);
     float beyond_m = depth.AtOrZero(u_beyond, v_beyond);
-    const bool outside = u_beyond < box_.u_min || u_beyond >= box_.u_max || v_beyond < box_.v_min ||
-                         v_beyond >= box_.v_max;
-    if (beyond_m <= 0.0F) return !prior.known && outside;
+    if (beyond_m <= 0.0F) return !prior.known && is_outside(u_beyond, v_beyond, 0);
     if (std::abs(beyond_m - here_m) > config.depth_jump_ratio * std::min(here_m, beyond_m))
       return false;
     planes_(v_beyond, u_beyond, u_beyond + 1, &beyond_m);
     if (beyond_m <= 0.0F) return false;
-    if (!prior.known) return outside;
+    if (!prior.known) return is_outside(u_beyond, v_beyond, border_px);
     return !gate.Accepts(frame.camera.BackProject(static_cast<float>(u_beyond),
                                                   static_cast<float>(v_beyond), beyond_m));
   };
