@@ -106,6 +106,9 @@ TEST(PixelRuns, OutOfMemory_IsCountedAndTheRestIsSound) {
   int last_v = 0;
   surfaces->ForEachRun([&](int, const PixelRun& run) { last_v = run.v; });
   EXPECT_LT(last_v, DepthScene::kHeight_px - 1);
+  EXPECT_EQ(surfaces->EndOfWholeRows(DepthScene::kHeight_px), last_v);
+  const Surfaces<2048> whole(scene);
+  EXPECT_EQ(whole->EndOfWholeRows(DepthScene::kHeight_px), DepthScene::kHeight_px);
 }
 
 TEST(PixelRuns, WithAReach_TheNearestSurfaceWithinItIsFound) {

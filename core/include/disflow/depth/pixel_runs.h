@@ -70,6 +70,10 @@ class PixelRuns {
   }
 
   [[nodiscard]] int dropped() const noexcept { return dropped_; }
+  /// The row after the last one that no run was left out of, if any was; `v_max` otherwise.
+  [[nodiscard]] int EndOfWholeRows(int v_max) const noexcept {
+    return dropped_ > 0 ? std::min(v_max, int{run(kMaxRuns - 1).v}) : v_max;
+  }
   [[nodiscard]] int components() const noexcept { return components_.size(); }
   [[nodiscard]] const Component& component(int i) const noexcept { return components_[i]; }
   [[nodiscard]] const PixelRun& first_run(int component) const noexcept {

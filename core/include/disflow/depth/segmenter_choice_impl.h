@@ -87,9 +87,10 @@ void Segmenter<Limits>::FindEnds(const DepthFrame& frame, const SegmenterConfig&
   const ModelGate gate = GateOf(frame, config, prior);
   // A fold beside the border, with what lies in it, ends no surface: noise makes such folds.
   const int border_px = !prior.known && manner_.cut ? 2 * valleys_.reach_px() : 0;
-  const auto is_outside = [this](int u, int v, int px) {
-    return u < box_.u_min + px || u >= box_.u_max - px || v < box_.v_min + px ||
-           v >= box_.v_max - px;
+  // Rows that there was no room for are as little known as what lies beyond the image.
+  const int v_end = surfaces_.EndOfWholeRows(box_.v_max);
+  const auto is_outside = [this, v_end](int u, int v, int px) {
+    return u < box_.u_min + px || u >= box_.u_max - px || v < box_.v_min + px || v >= v_end - px;
   };
   const auto goes_on = [&](int u, int v, int u_beyond, int v_beyond) {
     const float here_m = depth.At(u, v);
