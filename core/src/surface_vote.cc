@@ -4,12 +4,6 @@
 #include <algorithm>
 
 namespace disflow {
-namespace {
-
-// Smaller shares are what noise cut off of the table.
-constexpr int kCrumbPercent = 10;
-
-}  // namespace
 
 bool BelongsToObject(const SurfaceVote& vote) noexcept {
   return vote.probed == 0 || 10 * vote.explained >= 3 * vote.probed;
@@ -26,15 +20,10 @@ bool BelongsToMaskedObject(const SurfaceVote& vote) noexcept {
 
 bool GoesOn(const SurfaceVote& vote) noexcept {
   constexpr int kMinEnds = 8;
-  // Of a thing that was cut off nothing goes on, of a table under it a tenth and more of its rows.
+  // Of a thing that was cut off nothing goes on, of a table under it a tenth and more of its rows,
+  // each of which has two ends.
   constexpr int kMinPercent = 3;
-  // Both ends of a row count, and of a column.
-  const int ends = vote.ends + vote.column_ends;
-  return ends >= kMinEnds && 200 * ends >= kMinPercent * (2 * vote.rows + vote.columns);
-}
-
-bool IsCrumb(const SurfaceVote& vote, int pixels_of_other) noexcept {
-  return 100 * vote.pixels < kCrumbPercent * pixels_of_other;
+  return vote.ends >= kMinEnds && 200 * vote.ends >= kMinPercent * vote.outline;
 }
 
 bool ChooseOfCut(SurfaceVote* votes, int count, float most_new) noexcept {
@@ -55,8 +44,9 @@ bool ChooseOfCut(SurfaceVote* votes, int count, float most_new) noexcept {
                        static_cast<float>(100 * own.explained) >= kMinKnownPercent * in_view_before;
   for (int c = 0; c < count; ++c) {
     SurfaceVote& vote = votes[c];
-    vote.chosen = cut_off ? vote.chosen && !GoesOn(vote) && !IsCrumb(vote, own.pixels)
-                          : 100 * vote.explained >= kCrumbPercent * explained;
+    vote.chosen =
+        cut_off ? vote.chosen && !GoesOn(vote) && 100 * vote.pixels >= kCrumbPercent * own.pixels
+                : 100 * vote.explained >= kCrumbPercent * explained;
   }
   return cut_off;
 }
@@ -78,7 +68,8 @@ int LargestThatEnds(const SurfaceVote* votes, int count) noexcept {
     if (votes[c].pixels > votes[largest].pixels) largest = c;
     if (!GoesOn(votes[c]) && (own < 0 || votes[c].pixels > votes[own].pixels)) own = c;
   }
-  return own < 0 || IsCrumb(votes[own], votes[largest].pixels) ? largest : own;
+  const bool is_crumb = own < 0 || 100 * votes[own].pixels < kCrumbPercent * votes[largest].pixels;
+  return is_crumb ? largest : own;
 }
 
 }  // namespace disflow

@@ -3,10 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <memory>
 #include <set>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "depth_scene.h"
 
@@ -106,9 +109,21 @@ TEST(PixelRuns, OutOfMemory_IsCountedAndTheRestIsSound) {
   int last_v = 0;
   surfaces->ForEachRun([&](int, const PixelRun& run) { last_v = run.v; });
   EXPECT_LT(last_v, DepthScene::kHeight_px - 1);
-  EXPECT_EQ(surfaces->EndOfWholeRows(DepthScene::kHeight_px), last_v);
-  const Surfaces<2048> whole(scene);
-  EXPECT_EQ(whole->EndOfWholeRows(DepthScene::kHeight_px), DepthScene::kHeight_px);
+}
+
+TEST(PixelRuns, FromBelow_TheSameRunsComeTheOtherWayRound) {
+  DepthScene scene(2.0F);
+  scene.Rectangle({20, 20, 60, 50}, 1.0F);
+  const Surfaces<2048> surfaces(scene);
+  std::vector<std::array<int, 3>> down;
+  std::vector<std::array<int, 3>> up;
+  const auto into = [](auto& list) {
+    return [&list](int c, const PixelRun& run) { list.push_back({c, run.v, run.u_begin}); };
+  };
+  surfaces->ForEachRun(into(down));
+  surfaces->ForEachRun(into(up), true);
+  EXPECT_GT(down.size(), 120U);
+  EXPECT_TRUE(std::equal(down.begin(), down.end(), up.rbegin(), up.rend()));
 }
 
 TEST(PixelRuns, WithAReach_TheNearestSurfaceWithinItIsFound) {

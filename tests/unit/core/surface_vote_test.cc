@@ -15,7 +15,7 @@ SurfaceVote Own() {
   vote.pixels = 6000;
   vote.probed = 100;
   vote.explained = 97;
-  vote.rows = 250;
+  vote.outline = 500;
   return vote;
 }
 
@@ -24,7 +24,7 @@ SurfaceVote Table() {
   vote.pixels = 30000;
   vote.probed = 500;
   vote.explained = 40;
-  vote.rows = 700;
+  vote.outline = 1400;
   vote.ends = 120;
   return vote;
 }
@@ -80,16 +80,6 @@ TEST(SurfaceVote, SurfaceThatATurnMayHaveBroughtIntoView_DoesNotMakeItUnknown) {
   const float missing = static_cast<float>(turned.probed) - 80.0F / 0.85F;
   EXPECT_FALSE(ChooseOfCut(votes.data(), 1, missing - 1.0F));
   EXPECT_TRUE(ChooseOfCut(votes.data(), 1, missing + 1.0F));
-}
-
-TEST(SurfaceVote, ArmFromBelow_GoesOnByItsColumns) {
-  SurfaceVote held = Own();
-  held.columns = 120;
-  EXPECT_FALSE(GoesOn(held));
-  held.column_ends = 40;
-  EXPECT_TRUE(GoesOn(held));
-  held.column_ends = 7;
-  EXPECT_FALSE(GoesOn(held)) << "a few pixels of noise";
 }
 
 TEST(SurfaceVote, WhereTheModelExplainsNothing_TheChoiceStays) {

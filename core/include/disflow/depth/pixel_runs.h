@@ -70,10 +70,6 @@ class PixelRuns {
   }
 
   [[nodiscard]] int dropped() const noexcept { return dropped_; }
-  /// The row after the last one that no run was left out of, if any was; `v_max` otherwise.
-  [[nodiscard]] int EndOfWholeRows(int v_max) const noexcept {
-    return dropped_ > 0 ? std::min(v_max, int{run(kMaxRuns - 1).v}) : v_max;
-  }
   [[nodiscard]] int components() const noexcept { return components_.size(); }
   [[nodiscard]] const Component& component(int i) const noexcept { return components_[i]; }
   [[nodiscard]] const PixelRun& first_run(int component) const noexcept {
@@ -101,16 +97,13 @@ class PixelRuns {
   }
 
   /// visit(number of the run's component or kNoComponent, run), row by row, from left to right.
+  /// @param from_below The other way round.
   template <class Visitor>
-  void ForEachRun(Visitor&& visit) const noexcept {
-    for (int i = 0; i < count_; ++i) visit(static_cast<int>(run(run(i).parent).pixels), run(i));
-  }
-
-  /// The same from the last row to the first.
-  template <class Visitor>
-  void ForEachRunFromBelow(Visitor&& visit) const noexcept {
-    for (int i = count_ - 1; i >= 0; --i)
+  void ForEachRun(Visitor&& visit, bool from_below = false) const noexcept {
+    for (int k = 0; k < count_; ++k) {
+      const int i = from_below ? count_ - 1 - k : k;
       visit(static_cast<int>(run(run(i).parent).pixels), run(i));
+    }
   }
 
  private:

@@ -55,12 +55,6 @@ class Segmenter {
   /// The mask is evidence too, so the prediction may be farther off.
   static constexpr float kMaskMarginFactor = 2.0F;
 
-  static void CopyMask(const MaskView& given, const PixelBox& box, Mask& object) noexcept;
-
-  /// Everything is the object; the range gate drops what is too far pixel by pixel.
-  static void TakeAll(const DepthFrame& frame, const SegmenterConfig& config,
-                      Mask& object) noexcept;
-
   /// How surfaces are looked for.
   struct Manner {
     float margins = 1.0F;     ///< So many margins about the predicted model.
@@ -100,8 +94,6 @@ class Segmenter {
   /// Whether a surface that may be the object's goes on where the object cannot be.
   [[nodiscard]] bool ObjectGoesOn() noexcept;
 
-  [[nodiscard]] static float MostNew(const DepthFrame& frame, const ModelPrior& prior) noexcept;
-
   template <class Explains>
   void ChooseSurfaces(const DepthFrame& frame, const SegmenterConfig& config,
                       const ModelPrior& prior, Explains& explains, const Mask& mask) noexcept;
@@ -112,8 +104,8 @@ class Segmenter {
   void ChooseMasked(const DepthFrame& frame, const SegmenterConfig& config, const ModelPrior& prior,
                     Explains& explains, const Mask& mask) noexcept;
 
-  /// Before a model exists and without a mask: what lies under the seed pixel, or the nearest; if
-  /// that goes on, the nearest that does not.
+  /// Before a model exists and without a mask: what lies under the seed pixel, or is nearest and
+  /// ends.
   [[nodiscard]] int ChooseFirst(const DepthFrame& frame, const SegmenterConfig& config) noexcept;
 
   /// Asks the model about every few points of a run.
@@ -123,8 +115,7 @@ class Segmenter {
   template <class Explains>
   static void ProbePixel(const DepthReader& depth, const PinholeCamera& camera, Explains& explains,
                          int u, int v, SurfaceVote& vote) noexcept;
-  /// The same, of what the mask covers: on a grid over the image, so that runs of any length count
-  /// alike.
+  /// The same, of what the mask covers: on a grid, so that runs of any length count alike.
   template <class Explains>
   static void ProbeMasked(const DepthReader& depth, const PinholeCamera& camera, Explains& explains,
                           const PixelRun& run, const Mask& mask, SurfaceVote& vote) noexcept;
@@ -149,8 +140,7 @@ class Segmenter {
 
   /// What may come into view at once, of half the diagonal of the model's bounds.
   static constexpr float kFacePerSize = 0.6F;
-  /// An object that moves otherwise than predicted reaches out of the margin about it, but not as
-  /// far again.
+  /// An object that moves otherwise than predicted reaches out of the margin, not out of two.
   static constexpr float kFarMargins = 2.0F;
   /// Sensors lose single pixels; holes shall not count as the object's outline.
   static constexpr int kBridgedGapPx = 3;

@@ -53,22 +53,17 @@ std::uint32_t Segmenter<Limits>::LookAround(const DepthFrame& frame, const Segme
   }
   contact_.touches = goes_on({.margins = far, .cut = true});
   if (prior.known && !prior.doubtful) {
-    contact_.merged = !ChooseOfCut(votes_.data(), surfaces_.components(), MostNew(frame, prior));
+    // A body as long as its bounds that turns about its long axis shows a strip as wide as the turn
+    // times its depth: of a thing that was held edge-on, two images may show a quarter anew.
+    const float half_diagonal_m = 0.5F * (prior.box_max_m - prior.box_min_m).norm();
+    const float strip_m = prior.contact.turned_rad * kFacePerSize * half_diagonal_m;
+    const float away_m = std::max(prior.T_oc.Inverse().translation().z(), half_diagonal_m);
+    const float step_m = static_cast<float>(kProbeStepPx) * away_m / frame.camera.fx_px;
+    const float most_new = strip_m * 2.0F * half_diagonal_m / (step_m * step_m);
+    contact_.merged = !ChooseOfCut(votes_.data(), surfaces_.components(), most_new);
     if (contact_.merged) contact_.turned_rad = prior.contact.turned_rad;
   }
   return draw();
-}
-
-/// How many points that are probed may have come into view since something could be learnt. A body
-/// as long as its bounds that turns about its long axis shows a strip as wide as the turn times its
-/// depth, see kFacePerSize: of a thing that was held edge-on, two frames may show a quarter anew.
-template <class Limits>
-float Segmenter<Limits>::MostNew(const DepthFrame& frame, const ModelPrior& prior) noexcept {
-  const float half_diagonal_m = 0.5F * (prior.box_max_m - prior.box_min_m).norm();
-  const float strip_m = prior.contact.turned_rad * kFacePerSize * half_diagonal_m;
-  const float away_m = std::max(prior.T_oc.Inverse().translation().z(), half_diagonal_m);
-  const float step_m = static_cast<float>(kProbeStepPx) * away_m / frame.camera.fx_px;
-  return strip_m * 2.0F * half_diagonal_m / (step_m * step_m);
 }
 
 template <class Limits>
@@ -88,7 +83,9 @@ void Segmenter<Limits>::FindEnds(const DepthFrame& frame, const SegmenterConfig&
   // A fold beside the border, with what lies in it, ends no surface: noise makes such folds.
   const int border_px = !prior.known && manner_.cut ? 2 * valleys_.reach_px() : 0;
   // Rows that there was no room for are as little known as what lies beyond the image.
-  const int v_end = surfaces_.EndOfWholeRows(box_.v_max);
+  int v_end = box_.v_max;
+  if (surfaces_.dropped() > 0)
+    surfaces_.ForEachRun([&v_end](int, const PixelRun& run) { v_end = run.v; });
   const auto is_outside = [this, v_end](int u, int v, int px) {
     return u < box_.u_min + px || u >= box_.u_max - px || v < box_.v_min + px || v >= v_end - px;
   };
@@ -106,7 +103,7 @@ void Segmenter<Limits>::FindEnds(const DepthFrame& frame, const SegmenterConfig&
   };
   surfaces_.ForEachRun([&](int c, const PixelRun& run) {
     if (c == Surfaces::kNoComponent) return;
-    ++vote(c).rows;
+    vote(c).outline += 2;
     vote(c).ends += int{goes_on(run.u_begin, run.v, run.u_begin - 1, run.v)} +
                     int{goes_on(run.u_end - 1, run.v, run.u_end, run.v)};
   });
@@ -123,14 +120,13 @@ void Segmenter<Limits>::FindEnds(const DepthFrame& frame, const SegmenterConfig&
       row.SetRun(run.u_begin, run.u_end);
       if (c == Surfaces::kNoComponent) return;
       next.ForEachGap(run.u_begin, run.u_end, [&](int u_begin, int u_end) {
-        vote(c).columns += u_end - u_begin;
-        for (int u = u_begin; u < u_end; ++u)
-          vote(c).column_ends += int{goes_on(u, v, u, v + v_step)};
+        vote(c).outline += u_end - u_begin;
+        for (int u = u_begin; u < u_end; ++u) vote(c).ends += int{goes_on(u, v, u, v + v_step)};
       });
     };
   };
   surfaces_.ForEachRun(look_beyond(-1));
-  surfaces_.ForEachRunFromBelow(look_beyond(1));
+  surfaces_.ForEachRun(look_beyond(1), true);
 }
 
 template <class Limits>
@@ -219,7 +215,8 @@ int Segmenter<Limits>::ChooseFirst(const DepthFrame& frame,
     return nearest_of_all;
   // An arm that reaches into the image is often nearer than what is to be tracked.
   const int pixels = vote(nearest_of_all).pixels;
-  const int ends = nearest([&](int c) { return !GoesOn(vote(c)) && !IsCrumb(vote(c), pixels); });
+  const int ends = nearest(
+      [&](int c) { return !GoesOn(vote(c)) && 100 * vote(c).pixels >= kCrumbPercent * pixels; });
   return ends == Surfaces::kNoComponent ? nearest_of_all : ends;
 }
 

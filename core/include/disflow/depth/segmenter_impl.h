@@ -22,13 +22,16 @@ Status Segmenter<Limits>::Segment(const DepthFrame& frame, const SegmenterConfig
   overrun.Start(frame.depth.width_px, frame.depth.height_px);
   contact_ = {};
   if (frame.mask.given()) {
-    const PixelBox image{0, 0, frame.mask.width_px, frame.mask.height_px};
-    CopyMask(frame.mask, image, object);
+    for (int v = 0; v < frame.mask.height_px; ++v)
+      object.SetFromBytes(v, 0, frame.mask.width_px, frame.mask.row(v), frame.mask.label);
+    object.Finish();
     if (object.count() == 0) return Status::kEmptyMask;
     band_.Start(object, config, prior.motion_px);
   }
   if (!frame.mask.given() && config.grow_region == 0) {
-    TakeAll(frame, config, object);
+    // The range gate drops what is too far pixel by pixel.
+    const PixelBox box = RegionOfInterest(frame, config);
+    for (int v = box.v_min; v < box.v_max; ++v) object.row(v).SetRun(box.u_min, box.u_max);
   } else {
     if (frame.mask.given()) {
       Look({}, frame, config, prior, explains, object);
@@ -44,21 +47,6 @@ Status Segmenter<Limits>::Segment(const DepthFrame& frame, const SegmenterConfig
   }
   object.Finish();
   return object.count() > 0 ? Status::kOk : Status::kNoValidDepth;
-}
-
-template <class Limits>
-void Segmenter<Limits>::CopyMask(const MaskView& given, const PixelBox& box,
-                                 Mask& object) noexcept {
-  for (int v = box.v_min; v < box.v_max; ++v)
-    object.SetFromBytes(v, box.u_min, box.u_max, given.row(v), given.label);
-  object.Finish();
-}
-
-template <class Limits>
-void Segmenter<Limits>::TakeAll(const DepthFrame& frame, const SegmenterConfig& config,
-                                Mask& object) noexcept {
-  const PixelBox box = RegionOfInterest(frame, config);
-  for (int v = box.v_min; v < box.v_max; ++v) object.row(v).SetRun(box.u_min, box.u_max);
 }
 
 template <class Limits>

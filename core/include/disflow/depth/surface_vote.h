@@ -7,13 +7,11 @@ namespace disflow {
 struct SurfaceVote {
   bool chosen = false;
   int pixels = 0;
-  int masked = 0;       ///< Its pixels within the mask.
-  int probed = 0;       ///< Its points that the model was asked about.
-  int explained = 0;    ///< Of these, those near known surface.
-  int rows = 0;         ///< Its runs of pixels in image rows.
-  int ends = 0;         ///< Ends of these where it goes on to where the object cannot be.
-  int columns = 0;      ///< Its pixels above or below which there is none of it.
-  int column_ends = 0;  ///< Of these, those where it goes on likewise.
+  int masked = 0;     ///< Its pixels within the mask.
+  int probed = 0;     ///< Its points that the model was asked about.
+  int explained = 0;  ///< Of these, those near known surface.
+  int outline = 0;    ///< Ends of its pixels in rows, and in columns.
+  int ends = 0;       ///< Of these, those where it goes on to where the object cannot be.
 };
 
 /// Whether a surface is the object's, once there is a model and without a mask.
@@ -25,8 +23,7 @@ struct SurfaceVote {
 /// Whether a surface goes on where the object cannot be, as that of a table does.
 [[nodiscard]] bool GoesOn(const SurfaceVote& vote) noexcept;
 
-/// Whether a surface is as small beside another one as what noise cuts off of it.
-[[nodiscard]] bool IsCrumb(const SurfaceVote& vote, int pixels_of_other) noexcept;
+inline constexpr int kCrumbPercent = 10;  ///< Smaller shares are what noise cuts off of a surface.
 
 /// Of surfaces that were cut at their valleys, those that still go on are what the object stands
 /// on, unless the model explains little of the others: then the object could not be cut off, and
