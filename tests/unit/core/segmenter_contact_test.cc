@@ -144,18 +144,6 @@ TEST_F(FirstFrame, ArmThatIsCutJustBeforeTheBorder_IsNotTheObjectEither) {
   ExpectExactly(kObject);
 }
 
-TEST_F(FirstFrame, ArmThatReachesIntoRowsThatThereWasNoRoomFor_IsNotTheObjectEither) {
-  DepthScene scene(2.2F);
-  scene.Rectangle(kObject, kObject_m);
-  AddArm(scene, kArms[0]);
-  // More runs than a Micro tracker remembers.
-  scene.Draw({0, 90, 100, 105}, [](int u, int) { return u % 2 == 0 ? 1.0F : 1.5F; });
-  ASSERT_EQ(Segment(scene), Status::kOk);
-  ASSERT_GT(counters_.runs_dropped, 0U);
-  EXPECT_EQ(Share(kArms[0]), 0.0);
-  EXPECT_GT(Share(kObject), 0.95);
-}
-
 TEST_F(FirstFrame, ThingThatReachesOutOfTheImage_IsTheObjectIfNothingElseCanBe) {
   for (const PixelBox& arm : kArms) {
     DepthScene scene(2.2F);

@@ -82,12 +82,9 @@ void Segmenter<Limits>::FindEnds(const DepthFrame& frame, const SegmenterConfig&
   const ModelGate gate = GateOf(frame, config, prior);
   // A fold beside the border, with what lies in it, ends no surface: noise makes such folds.
   const int border_px = !prior.known && manner_.cut ? 2 * valleys_.reach_px() : 0;
-  // Rows that there was no room for are as little known as what lies beyond the image.
-  int v_end = box_.v_max;
-  if (surfaces_.dropped() > 0)
-    surfaces_.ForEachRun([&v_end](int, const PixelRun& run) { v_end = run.v; });
-  const auto is_outside = [this, v_end](int u, int v, int px) {
-    return u < box_.u_min + px || u >= box_.u_max - px || v < box_.v_min + px || v >= v_end - px;
+  const auto is_outside = [this](int u, int v, int px) {
+    return u < box_.u_min + px || u >= box_.u_max - px || v < box_.v_min + px ||
+           v >= box_.v_max - px;
   };
   const auto goes_on = [&](int u, int v, int u_beyond, int v_beyond) {
     const float here_m = depth.At(u, v);
