@@ -6,12 +6,19 @@
 #include <cmath>
 #include <limits>
 
+#include "disflow/geometry/covariance.h"
+
 namespace disflow::apps {
 namespace {
 
 /// Where the tracker's object frame truly is: it is fixed to the body since the alignment.
 EstimatedPose TruePoseOfTrackerFrame(const AlignedTrajectory& run, const AlignedFrame& frame) {
   return frame.T_ct * run.T_ot.Inverse();
+}
+
+/// From the true origin to the tracker's own, camera axes.
+Vec3d Lever(const AlignedTrajectory& run, const AlignedFrame& frame) {
+  return TruePoseOfTrackerFrame(run, frame).translation() - frame.T_ct.translation();
 }
 
 Vec6d PoseError(const AlignedTrajectory& run, const AlignedFrame& frame) {
@@ -24,8 +31,7 @@ Vec6d PoseError(const AlignedTrajectory& run, const AlignedFrame& frame) {
 }
 
 Vec6d TwistError(const AlignedTrajectory& run, const AlignedFrame& frame) {
-  const Vec3d origin = TruePoseOfTrackerFrame(run, frame).translation();
-  const PointTwist truth = MoveTo(frame.twist, origin - frame.T_ct.translation());
+  const PointTwist truth = MoveTo(frame.twist, Lever(run, frame));
   Vec6d error;
   error << frame.row->twist.linear_mps - truth.linear_mps,
       frame.row->twist.angular_rps - truth.angular_rps;
@@ -33,15 +39,14 @@ Vec6d TwistError(const AlignedTrajectory& run, const AlignedFrame& frame) {
 }
 
 /// Covariance that independent errors of (a point, rotation), or of their rates, at the true origin
-/// have at the tracker's own: the point is carried along the lever between them.
+/// have at the tracker's own.
 Mat6d TruthCovariance(const AlignedTrajectory& run, const AlignedFrame& frame, double point_std,
                       double angle_std) {
-  const Vec3d lever = TruePoseOfTrackerFrame(run, frame).translation() - frame.T_ct.translation();
-  Mat6d J = Mat6d::Identity();
-  J.topRightCorner<3, 3>() = -Skew(lever);
   Vec6d variances;
   variances << Vec3d::Constant(point_std * point_std), Vec3d::Constant(angle_std * angle_std);
-  return J * variances.asDiagonal() * J.transpose();
+  const Mat6 at_true_origin = variances.cast<float>().asDiagonal();
+  return CovarianceAtPoint(at_true_origin, Mat3::Identity(), Lever(run, frame).cast<float>())
+      .cast<double>();
 }
 
 double Share(const std::vector<double>& values, std::size_t total, double low, double high) {

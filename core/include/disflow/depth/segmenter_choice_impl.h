@@ -13,6 +13,30 @@
 
 namespace disflow {
 
+/// visit(number of the component or kNoComponent, u, v) for the pixels of all runs that have no run
+/// above them, or below.
+/// @param v_step -1 or 1.
+template <class Row, class Surfaces, class Visitor>
+void ForEachColumnEnd(const Surfaces& surfaces, int v_step, Visitor&& visit) noexcept {
+  Row next{};  // Of the row that is a step ahead.
+  Row row{};
+  int v = -1;
+  surfaces.ForEachRun(
+      [&](int c, const PixelRun& run) {
+        if (run.v != v) {
+          next = row;
+          if (run.v + v_step != v) next.Clear();
+          row.Clear();
+          v = run.v;
+        }
+        row.SetRun(run.u_begin, run.u_end);
+        next.ForEachGap(run.u_begin, run.u_end, [&](int u_begin, int u_end) {
+          for (int u = u_begin; u < u_end; ++u) visit(c, u, v);
+        });
+      },
+      v_step > 0);
+}
+
 template <class Limits>
 template <class Explains>
 void Segmenter<Limits>::Look(const Manner& manner, const DepthFrame& frame,
@@ -105,25 +129,13 @@ void Segmenter<Limits>::FindEnds(const DepthFrame& frame, const SegmenterConfig&
                     int{goes_on(run.u_end - 1, run.v, run.u_end, run.v)};
   });
   // An arm that holds the object from below goes on from one row to the next.
-  const auto look_beyond = [&](int v_step) {
-    return [&, v_step, next = typename Mask::Row{}, row = typename Mask::Row{}, v = -1](
-               int c, const PixelRun& run) mutable {
-      if (run.v != v) {
-        next = row;
-        if (run.v + v_step != v) next.Clear();
-        row.Clear();
-        v = run.v;
-      }
-      row.SetRun(run.u_begin, run.u_end);
+  for (const int v_step : {-1, 1}) {
+    ForEachColumnEnd<typename Mask::Row>(surfaces_, v_step, [&](int c, int u, int v) {
       if (c == Surfaces::kNoComponent) return;
-      next.ForEachGap(run.u_begin, run.u_end, [&](int u_begin, int u_end) {
-        vote(c).outline += u_end - u_begin;
-        for (int u = u_begin; u < u_end; ++u) vote(c).ends += int{goes_on(u, v, u, v + v_step)};
-      });
-    };
-  };
-  surfaces_.ForEachRun(look_beyond(-1));
-  surfaces_.ForEachRun(look_beyond(1), true);
+      ++vote(c).outline;
+      vote(c).ends += int{goes_on(u, v, u, v + v_step)};
+    });
+  }
 }
 
 template <class Limits>
