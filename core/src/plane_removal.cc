@@ -73,6 +73,49 @@ bool PlaneRemoval::FitTile(const PixelBox& box, int tile, Plane& plane) const no
       plane);
 }
 
+float PlaneRemoval::NoiseNearby(const Plane& plane, const DepthReader& depth,
+                                const PixelBox& box) const noexcept {
+  constexpr int kApart_px = 4;                           // noise hangs together over one to three
+  constexpr float kFar_per_m = 3.0F * kTolerance_per_m;  // what is farther off is something else
+  const int step = StepOf(box);
+  const auto for_each_pixel = [&](const auto& visit) {
+    for (int v = box.v_min + step / 2; v < box.v_max; v += step) {
+      for (int u = box.u_min + kApart_px; u < box.u_max - kApart_px; u += step)
+        visit(u, v, plane.At(static_cast<float>(u), static_cast<float>(v)));
+    }
+  };
+  const auto off = [&](int u, int v) {
+    const float depth_m = depth.At(u, v);
+    if (depth_m <= 0.0F) return 2.0F * kFar_per_m;
+    return 1.0F / depth_m - plane.At(static_cast<float>(u), static_cast<float>(v));
+  };
+  float sum = 0.0F;
+  float most = 0.0F;
+  int count = 0;
+  for_each_pixel([&](int u, int v, float w) {
+    if (std::abs(off(u, v)) > kFar_per_m) return;
+    sum += w;
+    most = std::max(most, w);
+    ++count;
+  });
+  if (count < kMinPoints) return 0.0F;
+  const float near = 0.5F * (most + sum / static_cast<float>(count));
+  sum = 0.0F;
+  count = 0;
+  for_each_pixel([&](int u, int v, float w) {
+    if (w < near) return;
+    const float left = off(u - kApart_px, v);
+    const float here = off(u, v);
+    const float right = off(u + kApart_px, v);
+    if (std::max({std::abs(left), std::abs(here), std::abs(right)}) > kFar_per_m) return;
+    sum += std::abs(left - 2.0F * here + right) / (w * w);
+    ++count;
+  });
+  // Normal noise: sqrt(pi / 2) for the mean deviation, sqrt(6) for the difference.
+  constexpr float kStdPerMeanDifference = 0.5117F;
+  return count < kMinPoints ? 0.0F : kStdPerMeanDifference * sum / static_cast<float>(count);
+}
+
 void PlaneRemoval::FindPlanes(const PixelBox& box) noexcept {
   planes_.clear();
   const int total = points_.size();

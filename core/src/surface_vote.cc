@@ -2,6 +2,7 @@
 #include "disflow/depth/surface_vote.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace disflow {
 
@@ -22,8 +23,17 @@ bool GoesOn(const SurfaceVote& vote) noexcept {
   constexpr int kMinEnds = 8;
   // Of a thing that was cut off nothing goes on, of a table under it a tenth and more of its rows,
   // each of which has two ends.
-  constexpr int kMinPercent = 3;
-  return vote.ends >= kMinEnds && 200 * vote.ends >= kMinPercent * vote.outline;
+  constexpr float kMinShare = 0.015F;
+  // What noise has riddled with holes has most of its outline around these. Four times the root of
+  // its pixels is a square's, twice that one of 14 to 1.
+  const float around = 8.0F * std::sqrt(static_cast<float>(vote.pixels));
+  const float outline = std::min(static_cast<float>(vote.outline), around);
+  return vote.ends >= kMinEnds && static_cast<float>(vote.ends) >= kMinShare * outline;
+}
+
+bool IsRagged(const SurfaceVote& vote) noexcept {
+  constexpr int kMinWidth_px = 4;
+  return 2 * vote.pixels < kMinWidth_px * vote.outline;
 }
 
 bool ChooseOfCut(SurfaceVote* votes, int count, float most_new) noexcept {

@@ -5,13 +5,16 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <memory>
+#include <random>
 #include <set>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "depth_scene.h"
+#include "disflow/depth/pixel_runs_impl.h"
 
 namespace disflow {
 namespace {
@@ -109,6 +112,101 @@ TEST(PixelRuns, OutOfMemory_IsCountedAndTheRestIsSound) {
   int last_v = 0;
   surfaces->ForEachRun([&](int, const PixelRun& run) { last_v = run.v; });
   EXPECT_LT(last_v, DepthScene::kHeight_px - 1);
+}
+
+/// A wall with a thing before its foot, whose pixels are at any depth every so often.
+DepthScene NoisyScene(float share, std::uint32_t seed) {
+  DepthScene scene(2.0F);
+  scene.Rectangle({60, 80, 110, 110}, 1.0F);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<float> uniform(0.0F, 1.0F);
+  scene.Draw(DepthScene::image(), [&](int u, int v) {
+    const bool stays = uniform(random) > share;
+    return stays ? scene.At(u, v) : 0.5F + 3.0F * uniform(random);
+  });
+  return scene;
+}
+
+/// Number of the surface of each pixel, row by row.
+template <class Runs>
+std::vector<int> Numbers(const Runs& runs) {
+  std::vector<int> numbers(DepthScene::kWidth_px * DepthScene::kHeight_px, Runs::kNoComponent);
+  runs.ForEachRun([&](int c, const PixelRun& run) {
+    std::fill_n(numbers.begin() + run.v * DepthScene::kWidth_px + run.u_begin, run.length(), c);
+  });
+  return numbers;
+}
+
+TEST(PixelRuns, NoiseThatFillsTheMemory_TakesNoSurfaceAway) {
+  for (const float share : {0.12F, 0.15F, 0.2F, 0.3F}) {
+    for (std::uint32_t seed = 1; seed <= 5; ++seed) {
+      const DepthScene scene = NoisyScene(share, seed);
+      const Surfaces<19200> large(scene);
+      const Surfaces<2048> small(scene);
+      int runs = 0;
+      large->ForEachRun([&](int, const PixelRun&) { ++runs; });
+      EXPECT_GT(runs, 2 * 2048);
+      EXPECT_EQ(small->dropped(), 0) << share << ", " << seed;
+      ASSERT_EQ(small->components(), large->components());
+      const std::vector<int> in_large = Numbers(*large);
+      const std::vector<int> in_small = Numbers(*small);
+      // Each pixel of a surface is in the same one as with memory for all.
+      std::set<std::pair<int, int>> pairs;
+      std::set<int> found;
+      for (std::size_t i = 0; i < in_large.size(); ++i) {
+        if (in_large[i] == PixelRuns<19200, 160>::kNoComponent) continue;
+        pairs.insert({in_large[i], in_small[i]});
+        found.insert(in_small[i]);
+      }
+      const auto surfaces = static_cast<std::size_t>(large->components());
+      EXPECT_EQ(pairs.size(), surfaces);
+      EXPECT_EQ(found.size(), surfaces);
+      EXPECT_EQ(found.count(PixelRuns<2048, 160>::kNoComponent), 0U);
+    }
+  }
+}
+
+TEST(PixelRuns, HolesThatFillTheMemory_AreBridgedButNotAcrossAnotherSurface) {
+  // Ten holes in each row, ten pixels wide, so that the wall hangs together all around them.
+  DepthScene scene(2.0F);
+  scene.Draw(DepthScene::image(),
+             [](int u, int v) { return (u + 5 * (v / 4)) % 16 < 10 && v % 4 < 3 ? 0.0F : 2.0F; });
+  const PixelBox thing{72, 0, 82, DepthScene::kHeight_px};
+  scene.Rectangle(thing, 1.0F);
+  const Surfaces<700> surfaces(scene);
+  EXPECT_EQ(surfaces->dropped(), 0);
+  ASSERT_EQ(surfaces->components(), 3);  // the wall on either side of the thing
+  const std::vector<int> numbers = Numbers(*surfaces);
+  for (int v = 0; v < DepthScene::kHeight_px; ++v) {
+    for (int u = thing.u_min; u < thing.u_max; ++u)
+      ASSERT_EQ(numbers[static_cast<std::size_t>(v * DepthScene::kWidth_px + u)],
+                surfaces->ComponentAt(75, 60));
+  }
+  EXPECT_EQ(surfaces->component(surfaces->ComponentAt(75, 60)).pixels,
+            thing.width() * thing.height());
+}
+
+TEST(PixelRuns, NoiseThatFillsTheMemory_LeavesRunsInOrderThatDoNotOverlap) {
+  for (const float share : {0.2F, 0.6F, 1.0F}) {
+    const DepthScene scene = NoisyScene(share, 7);
+    const Surfaces<700> surfaces(scene);
+    std::vector<int> pixels(static_cast<std::size_t>(surfaces->components()));
+    int v = 0;
+    int u_end = 0;
+    surfaces->ForEachRun([&](int c, const PixelRun& run) {
+      if (run.v != v) u_end = 0;
+      EXPECT_GE(run.v, v);
+      EXPECT_GE(run.u_begin, u_end);
+      EXPECT_GT(run.length(), 0);
+      EXPECT_LE(run.u_end, DepthScene::kWidth_px);
+      v = run.v;
+      u_end = run.u_end;
+      if (c != PixelRuns<700, 160>::kNoComponent)
+        pixels[static_cast<std::size_t>(c)] += run.length();
+    });
+    for (int c = 0; c < surfaces->components(); ++c)
+      EXPECT_EQ(surfaces->component(c).pixels, pixels[static_cast<std::size_t>(c)]);
+  }
 }
 
 TEST(PixelRuns, FromBelow_TheSameRunsComeTheOtherWayRound) {

@@ -66,6 +66,23 @@ TEST_F(PlaneRemovalTest, SensorNoise_LeavesAlmostNothingOfThePlane) {
   EXPECT_EQ(RemovedShare(scene, kObject, true), 0.0);
 }
 
+// In inverse depth it is 0.016 1/m where the table is nearest.
+TEST_F(PlaneRemovalTest, NoiseThatIsTheSameInDepth_LeavesAlmostNothingOfThePlaneWhereItIsNear) {
+  constexpr int kNear_v = DepthScene::kHeight_px - 30;
+  DepthScene scene(4.0F);
+  scene.Draw(DepthScene::image(),
+             [](int, int v) { return 1.0F / (0.6F + 0.009F * static_cast<float>(v)); });
+  std::mt19937 random(4);
+  std::normal_distribution<float> noise_m(0.0F, 0.0055F);
+  const DepthScene clean = scene;
+  scene.Draw(DepthScene::image(), [&](int u, int v) { return clean.At(u, v) + noise_m(random); });
+  const PixelBox thing{60, kNear_v, 100, DepthScene::kHeight_px - 10};
+  scene.Draw(thing, [&](int u, int v) { return clean.At(u, v) - 0.025F; });
+  Find(scene);
+  EXPECT_GT(RemovedShare(scene, thing, false), 0.98);
+  EXPECT_EQ(RemovedShare(scene, thing, true), 0.0);
+}
+
 TEST_F(PlaneRemovalTest, FaceThatEndsWithinTheImage_IsNoPlane) {
   // Nothing but a large face: the rest has no depth.
   DepthScene scene(0.0F);

@@ -21,6 +21,24 @@ TEST_F(FirstFrame, ObjectThatStandsOnTheTable_IsCutOff) {
   EXPECT_LT(object_->count(), 1.02 * standing.width() * standing.height());
 }
 
+/// What noise leaves of a table: threads of two pixels that hang together.
+DepthScene WithThreads(DepthScene scene, const PixelBox& box, float depth_m) {
+  return scene.Draw(
+      box, [&](int u, int v) { return v % 5 < 2 || u == box.u_min ? depth_m : scene.At(u, v); });
+}
+
+TEST_F(FirstFrame, ThreadsThatNoiseLeavesOfATable_AreNotTheObjectThoughTheyAreNearer) {
+  const PixelBox threads{20, 85, 60, 110};
+  ASSERT_EQ(Segment(WithThreads(ObjectOverATable(), threads, 0.6F)), Status::kOk);
+  ExpectExactly(kObject);
+}
+
+TEST_F(FirstFrame, ThingOfThreads_IsTheObjectIfNothingElseIsThere) {
+  const PixelBox threads{20, 85, 60, 110};
+  ASSERT_EQ(Segment(WithThreads(DepthScene(0.0F), threads, 0.6F)), Status::kOk);
+  EXPECT_GT(object_->count(), 10 * threads.width() - 1);
+}
+
 TEST_F(FirstFrame, RangeGate_LeavesOutWhatIsNearer) {
   DepthScene scene = ObjectOverATable();
   scene.Rectangle(kOther, 0.4F);

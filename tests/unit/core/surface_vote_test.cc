@@ -38,6 +38,33 @@ TEST(SurfaceVote, SurfaceWhoseRowsEndAtNothing_GoesOn) {
   EXPECT_FALSE(GoesOn(noisy));
 }
 
+// The outlines of the holes say nothing of where the surface ends.
+TEST(SurfaceVote, SurfaceThatNoiseHasRiddledWithHoles_GoesOnAllTheSame) {
+  SurfaceVote riddled = Table();
+  riddled.outline = 14000;
+  EXPECT_TRUE(GoesOn(riddled));
+  riddled.ends = 15;
+  EXPECT_FALSE(GoesOn(riddled));
+}
+
+TEST(SurfaceVote, PiecesAsNarrowAsNoise_AreRaggedAndThingsAreNot) {
+  const auto of_rectangle = [](int width_px, int height_px) {
+    SurfaceVote vote;
+    vote.pixels = width_px * height_px;
+    vote.outline = 2 * (width_px + height_px);
+    return vote;
+  };
+  EXPECT_TRUE(IsRagged(of_rectangle(3, 60)));
+  EXPECT_TRUE(IsRagged(of_rectangle(60, 3)));
+  EXPECT_FALSE(IsRagged(of_rectangle(5, 60)));
+  // The smallest thing that is looked for, a disc of 12 pixels.
+  SurfaceVote disc;
+  disc.pixels = 115;
+  disc.outline = 4 * 12;
+  EXPECT_FALSE(IsRagged(disc));
+  EXPECT_FALSE(IsRagged(Own()));
+}
+
 TEST(SurfaceVote, ObjectThatWasCutOff_IsChosenWithoutItsTable) {
   std::array votes{Table(), Own()};
   votes[0].chosen = true;  // near the model's foot a third of it is explained

@@ -27,8 +27,10 @@ struct PixelRun {
 };
 
 /// Connected components of a depth image over depth continuity, by union-find on horizontal runs.
-/// One pass over the image, memory for kMaxRuns runs and two image rows; rows that no longer fit
-/// are left out and counted. The kMaxComponents largest components are remembered.
+/// One pass over the image, memory for kMaxRuns runs and two image rows. When it is full, crumbs
+/// that nothing can be added to any more are given up, and what noise has cut into many runs
+/// becomes one; what does not fit then is left out and counted. The kMaxComponents largest
+/// components are remembered.
 template <int kMaxRuns, int kMaxWidth>
 class PixelRuns {
   static_assert(kMaxRuns <= 65535);
@@ -50,23 +52,25 @@ class PixelRuns {
   void Build(const DepthReader& depth, const PixelBox& box, float jump_ratio, int fewest_pixels,
              Gate&& gate, int bridged_px) noexcept {
     count_ = 0;
+    least_count_ = 0;
+    merged_gap_px_ = kSmallestGapPx;
+    above_begin_ = 0;
+    row_begin_ = 0;
+    fewest_pixels_ = fewest_pixels;
     bridged_px_ = bridged_px;
     dropped_ = 0;
     components_.clear();
-    int above_begin = 0;
-    int above_end = 0;
     for (int v = box.v_min; v < box.v_max && !box.empty(); ++v) {
       current_ = 1 - current_;
       depth.ReadRow(v, box.u_min, box.u_max, row_m().data());
       gate(v, box.u_min, box.u_max, row_m().data());
-      const int row_begin = count_;
+      above_begin_ = row_begin_;
+      row_begin_ = count_;
       BuildRow(box, v, jump_ratio);
-      ConnectRows(box.u_min, jump_ratio, above_begin, above_end, row_begin, count_);
-      above_begin = row_begin;
-      above_end = count_;
+      ConnectRows(box.u_min, jump_ratio, above_begin_, row_begin_, row_begin_, count_);
     }
     Flatten();
-    RememberLargest(fewest_pixels);
+    RememberLargest();
   }
 
   [[nodiscard]] int dropped() const noexcept { return dropped_; }
@@ -109,6 +113,10 @@ class PixelRuns {
  private:
   using Row = std::array<float, static_cast<std::size_t>(kMaxWidth)>;
   static constexpr int kPart_px = 32;  ///< Of a row, looked at together.
+  /// Between runs of a surface that become one when memory is full, first and at last: what noise
+  /// cuts out, crumbs and holes. Where another surface lies between them they stay two.
+  static constexpr int kSmallestGapPx = 3;
+  static constexpr int kLargestGapPx = 24;
 
   [[nodiscard]] Row& row_m() noexcept { return rows_m_[current_]; }
   [[nodiscard]] PixelRun& run(int i) noexcept { return runs_[static_cast<std::size_t>(i)]; }
@@ -189,6 +197,7 @@ class PixelRuns {
   }
 
   void Append(int v, int u_begin, int u_end) noexcept {
+    if (count_ == kMaxRuns) MakeRoom();
     if (count_ == kMaxRuns) {
       ++dropped_;
       return;
@@ -198,27 +207,8 @@ class PixelRuns {
     ++count_;
   }
 
-  void ConnectRows(int u_origin, float jump_ratio, int a, int a_end, int b, int b_end) noexcept {
-    while (a < a_end && b < b_end) {
-      const int begin = std::max(run(a).u_begin, run(b).u_begin) - u_origin;
-      const int end = std::min(run(a).u_end, run(b).u_end) - u_origin;
-      if (begin < end && Touch(jump_ratio, begin, end)) Join(a, b);
-      if (run(a).u_end < run(b).u_end) {
-        ++a;
-      } else {
-        ++b;
-      }
-    }
-  }
-
-  [[nodiscard]] bool Touch(float jump_ratio, int begin, int end) const noexcept {
-    for (int i = begin; i < end; ++i) {
-      const float above_m = rows_m_[1 - current_][static_cast<std::size_t>(i)];
-      const float below_m = rows_m_[current_][static_cast<std::size_t>(i)];
-      if (above_m > 0.0F && below_m > 0.0F && Continuous(above_m, below_m, jump_ratio)) return true;
-    }
-    return false;
-  }
+  void ConnectRows(int u_origin, float jump_ratio, int a, int a_end, int b, int b_end) noexcept;
+  [[nodiscard]] bool Touch(float jump_ratio, int begin, int end) const noexcept;
 
   [[nodiscard]] int Root(int i) noexcept {
     while (run(i).parent != i) {
@@ -234,41 +224,11 @@ class PixelRuns {
     run(std::max(root_a, root_b)).parent = static_cast<std::uint16_t>(std::min(root_a, root_b));
   }
 
-  /// Links every run to its root and counts pixels there. A parent comes before its children.
-  void Flatten() noexcept {
-    for (int i = 0; i < count_; ++i) {
-      PixelRun& r = run(i);
-      r.parent = run(r.parent).parent;
-      PixelRun& root = run(r.parent);
-      root.pixels = static_cast<std::uint16_t>(std::min(65535, root.pixels + r.length()));
-    }
-  }
-
-  void RememberLargest(int fewest_pixels) noexcept {
-    for (int i = 0; i < count_; ++i) {
-      const PixelRun& r = run(i);
-      if (r.parent != i || r.pixels < fewest_pixels) continue;
-      if (!components_.full()) {
-        (void)components_.push_back({i, r.pixels});
-        continue;
-      }
-      auto* smallest = std::min_element(
-          components_.begin(), components_.end(),
-          [](const Component& a, const Component& b) { return a.pixels < b.pixels; });
-      if (smallest->pixels < r.pixels) *smallest = {i, r.pixels};
-    }
-    for (int i = 0; i < count_; ++i) {
-      if (run(i).parent == i) run(i).pixels = static_cast<std::uint16_t>(kNoComponent);
-    }
-    for (int c = 0; c < components_.size(); ++c) {
-      run(components_[c].first_run).pixels = static_cast<std::uint16_t>(c);
-      components_[c].pixels = 0;
-    }
-    // Once more, without saturation.
-    ForEachRun([this](int c, const PixelRun& r) {
-      if (c != kNoComponent) components_[c].pixels += r.length();
-    });
-  }
+  void MakeRoom() noexcept;
+  void Renumber() noexcept;
+  void Compact() noexcept;
+  void Flatten() noexcept;
+  void RememberLargest() noexcept;
 
   std::array<PixelRun, static_cast<std::size_t>(kMaxRuns)> runs_;
   FixedVector<Component, kMaxComponents> components_;
@@ -277,7 +237,12 @@ class PixelRuns {
   std::array<std::uint8_t, static_cast<std::size_t>(kMaxWidth + kFlagsAtOnce)> changes_;
   std::size_t current_ = 0;
   int count_ = 0;
+  int least_count_ = 0;  ///< After room was made last.
+  int merged_gap_px_ = kSmallestGapPx;
+  int above_begin_ = 0;  ///< First run of the row above.
+  int row_begin_ = 0;    ///< First run of the row that is being built.
   int dropped_ = 0;
+  int fewest_pixels_ = 0;
   int bridged_px_ = 0;
 };
 

@@ -216,17 +216,20 @@ int Segmenter<Limits>::ChooseFirst(const DepthFrame& frame,
     }
     return best;
   };
-  const int nearest_of_all = nearest([](int) { return true; });
+  // Of a table that noise hides in part ragged pieces are left, some nearer than what stands there.
+  const auto solid = [&](int c) { return !IsRagged(vote(c)); };
+  int first = nearest(solid);
+  if (first == Surfaces::kNoComponent) first = nearest([](int) { return true; });
   // Who draws a region may draw it too tightly; there the nearest is what was meant.
   const bool whole_image =
       box_.width() == frame.depth.width_px && box_.height() == frame.depth.height_px;
-  if (!manner_.cut || !whole_image || nearest_of_all == Surfaces::kNoComponent)
-    return nearest_of_all;
+  if (!manner_.cut || !whole_image || first == Surfaces::kNoComponent) return first;
   // An arm that reaches into the image is often nearer than what is to be tracked.
-  const int pixels = vote(nearest_of_all).pixels;
-  const int ends = nearest(
-      [&](int c) { return !GoesOn(vote(c)) && 100 * vote(c).pixels >= kCrumbPercent * pixels; });
-  return ends == Surfaces::kNoComponent ? nearest_of_all : ends;
+  const int pixels = vote(first).pixels;
+  const int ends = nearest([&](int c) {
+    return solid(c) && !GoesOn(vote(c)) && 100 * vote(c).pixels >= kCrumbPercent * pixels;
+  });
+  return ends == Surfaces::kNoComponent ? first : ends;
 }
 
 }  // namespace disflow

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "disflow/depth/model_gate.h"
+#include "disflow/depth/pixel_runs_impl.h"
 #include "disflow/depth/segmenter.h"
 #include "disflow/depth/valley_cut_impl.h"
 

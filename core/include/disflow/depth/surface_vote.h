@@ -23,6 +23,11 @@ struct SurfaceVote {
 /// Whether a surface goes on where the object cannot be, as that of a table does.
 [[nodiscard]] bool GoesOn(const SurfaceVote& vote) noexcept;
 
+/// Whether a surface is as ragged as what noise leaves of a table: in the mean narrower than 4 px,
+/// where a camera's noise hangs together over one to three. Twice its pixels over its outline is
+/// the width of a strip.
+[[nodiscard]] bool IsRagged(const SurfaceVote& vote) noexcept;
+
 inline constexpr int kCrumbPercent = 10;  ///< Smaller shares are what noise cuts off of a surface.
 
 /// Of surfaces that were cut at their valleys, those that still go on are what the object stands
