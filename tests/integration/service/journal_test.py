@@ -6,6 +6,7 @@ Wants root, systemd-journald and journalctl; the form of every entry is tested w
 """
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -76,7 +77,9 @@ class Journal(unittest.TestCase):
     def test_what_is_not_as_wanted_is_a_warning_and_nothing_is_said_elsewhere(self):
         warnings = self.entries("-t", "disflow_track", "-p", "warning")
         self.assertEqual([entry["MESSAGE"].partition(":")[0] for entry in warnings], ["tracking thread"])
-        self.assertTrue(any("40 frames" in entry["MESSAGE"] for entry in self.entries("-t", "disflow_track")))
+        # Not how many: on a busy machine a live camera's images are dropped.
+        said = [entry["MESSAGE"] for entry in self.entries("-t", "disflow_track")]
+        self.assertTrue(any(re.match(r"\d+ frames in ", message) for message in said), said)
         self.assertEqual(self._said, "")
 
 
