@@ -6,7 +6,6 @@ Wants root, systemd-journald and journalctl; the form of every entry is tested w
 """
 import json
 import os
-import re
 import shutil
 import subprocess
 import sys
@@ -27,7 +26,8 @@ fi
 "$1" >/dev/null 2>&1 &
 journald=$!
 while [ ! -S /run/systemd/journal/socket ]; do kill -0 $journald; sleep 0.05; done
-"$2" --sensor 'sim:box?frames=40&noise=white' --rate live --log journald --cpu 1000
+# Not as a live camera, of which a busy machine drops images: all 40 are to be in the report.
+"$2" --sensor 'sim:box?frames=40&noise=white' --log journald --cpu 1000
 # A journal that is told to end reads nothing more of what waits for it, as on a busy machine the last lines of the program do.
 tries=200
 until journalctl --no-pager -q -D /run/log/journal -t disflow_track | grep -q 'frames dropped' || [ $tries -eq 0 ]; do
@@ -77,9 +77,7 @@ class Journal(unittest.TestCase):
     def test_what_is_not_as_wanted_is_a_warning_and_nothing_is_said_elsewhere(self):
         warnings = self.entries("-t", "disflow_track", "-p", "warning")
         self.assertEqual([entry["MESSAGE"].partition(":")[0] for entry in warnings], ["tracking thread"])
-        # Not how many: on a busy machine a live camera's images are dropped.
-        said = [entry["MESSAGE"] for entry in self.entries("-t", "disflow_track")]
-        self.assertTrue(any(re.match(r"\d+ frames in ", message) for message in said), said)
+        self.assertTrue(any("40 frames" in entry["MESSAGE"] for entry in self.entries("-t", "disflow_track")))
         self.assertEqual(self._said, "")
 
 

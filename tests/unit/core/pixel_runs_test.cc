@@ -127,6 +127,13 @@ DepthScene NoisyScene(float share, std::uint32_t seed) {
   return scene;
 }
 
+template <class Runs>
+int CountRuns(const Runs& runs) {
+  int count = 0;
+  runs.ForEachRun([&](int, const PixelRun&) { ++count; });
+  return count;
+}
+
 /// Number of the surface of each pixel, row by row.
 template <class Runs>
 std::vector<int> Numbers(const Runs& runs) {
@@ -143,9 +150,7 @@ TEST(PixelRuns, NoiseThatFillsTheMemory_TakesNoSurfaceAway) {
       const DepthScene scene = NoisyScene(share, seed);
       const Surfaces<19200> large(scene);
       const Surfaces<2048> small(scene);
-      int runs = 0;
-      large->ForEachRun([&](int, const PixelRun&) { ++runs; });
-      EXPECT_GT(runs, 2 * 2048);
+      EXPECT_GT(CountRuns(*large), 2 * 2048);
       EXPECT_EQ(small->dropped(), 0) << share << ", " << seed;
       ASSERT_EQ(small->components(), large->components());
       const std::vector<int> in_large = Numbers(*large);
@@ -173,6 +178,8 @@ TEST(PixelRuns, HolesThatFillTheMemory_AreBridgedButNotAcrossAnotherSurface) {
              [](int u, int v) { return (u + 5 * (v / 4)) % 16 < 10 && v % 4 < 3 ? 0.0F : 2.0F; });
   const PixelBox thing{72, 0, 82, DepthScene::kHeight_px};
   scene.Rectangle(thing, 1.0F);
+  const Surfaces<19200> large(scene);
+  ASSERT_GT(CountRuns(*large), 700);
   const Surfaces<700> surfaces(scene);
   EXPECT_EQ(surfaces->dropped(), 0);
   ASSERT_EQ(surfaces->components(), 3);  // the wall on either side of the thing
