@@ -117,7 +117,7 @@ RegistrationInformation Registration<Limits>::KnownInformation(const Field& fiel
   const RobustScale settled;
   // Finds what the edges are matched with.
   (void)AddResiduals(edges, result.T_oc, result.center_m,
-                     {config, settled.edges_m, widths_.of_edges()}, Matching::kSearch);
+                     {config, settled.edges_m, widths_.of_edges(), kEdgeBias_m}, Matching::kSearch);
   result.information.total =
       Linearise(surfaces, edges, config, settled, Matching::kLinear, result).WithoutRadius().h;
   result.information.of_edge_errors = OfEdgeErrors(edges, config, settled, result);
@@ -129,7 +129,8 @@ template <class Limits>
 Mat6 Registration<Limits>::OfEdgeErrors(EdgeResiduals<Limits>& edges,
                                         const RegistrationConfig& config, const RobustScale& scale,
                                         const Result& result) const noexcept {
-  const ResidualWeighting weighting{config, scale.edges_m, widths_.of_edges(), result.edge_trust};
+  const ResidualWeighting weighting{config, scale.edges_m, widths_.of_edges(), kEdgeBias_m,
+                                    result.edge_trust};
   ResidualSums along;
   ResidualSums behind;
   for (int i = 0; i < edges.size(); ++i) {
@@ -165,7 +166,8 @@ NormalEquations Registration<Limits>::Linearise(SurfaceResiduals<Limits>& surfac
   result.information.gradient_variance_rad2 = kFieldsTilt * surface.mean_tilt_rad2();
   const ResidualSums edge = AddResiduals(
       edges, T_oc, center_m,
-      {config, scale.edges_m, widths_.of_edges(), result.edge_trust, kEdgeInlierReach}, matching);
+      {config, scale.edges_m, widths_.of_edges(), kEdgeBias_m, result.edge_trust, kEdgeInlierReach},
+      matching);
   equations += edge.normals;
 
   const EdgeRounding& known = edges.known_rounding();

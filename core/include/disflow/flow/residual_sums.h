@@ -12,6 +12,7 @@ struct ResidualWeighting {
   const RegistrationConfig& config;
   float scale_m;          ///< Least width of the robust kernel.
   float widening = 1.0F;  ///< Of the robust kernel, see KernelWidths.
+  float bias_m = 0.0F;    ///< Of this kind; the kernel is widened by less by it.
   float trust = 1.0F;     ///< How far this kind is believed, 0..1.
   /// A residual supports the pose if it is less than this many times as large as the kernel would
   /// be wide without the widening: 2 of edges, of which 95 % are where their noise is known.

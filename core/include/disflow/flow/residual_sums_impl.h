@@ -73,8 +73,8 @@ inline void ResidualSums::Add(const Residual& residual, const ResidualWeighting&
   const float residual_m = per_norm * residual.distance_m;
   const float sigma_m = std::sqrt(residual.variance_m2);
   const float narrow_m = config.robust_scale_sigmas * sigma_m;
-  const float robust =
-      GemanMcClure(residual_m, std::max(weighting.scale_m, weighting.widening * narrow_m));
+  const float wide_m = std::max(narrow_m, weighting.widening * narrow_m - weighting.bias_m);
+  const float robust = GemanMcClure(residual_m, std::max(weighting.scale_m, wide_m));
   const float row_weight = weighting.trust * robust * std::min(residual.gradient_norm, 1.0F) /
                            (residual.variance_m2 + BlurVariance(weighting.scale_m));
   normals.Add(residual.point_m - center_m, per_norm * residual.gradient, residual_m, row_weight,
