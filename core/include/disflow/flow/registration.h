@@ -95,7 +95,7 @@ class Registration {
   /// Of edges whose noise is known 95 % are within two standard deviations.
   static constexpr float kEdgeInlierReach = 2.0F;
   /// What the outlines of roundings are off by, and no frame tells.
-  static constexpr float kEdgeBias_m = 0.0006F;
+  static constexpr float kEdgeBias_m = 0.0005F;
 
   [[nodiscard]] Mat6 OfEdgeErrors(EdgeResiduals<Limits>& edges, const RegistrationConfig& config,
                                   const RobustScale& scale, const Result& result) const noexcept;
