@@ -30,7 +30,8 @@ typename Tracker<Limits>::Aligned Tracker<Limits>::Register(const DepthFrame& fr
   // Starting poses are compared on a part of the samples: they are many and need not be precise.
   const EveryNth some(samples_, PoseSearch<Limits>::kPoints);
   auto& registration = scratch_.template Begin<Registration<Limits>>();
-  registration.SetKernels(kernel_widths_);
+  // Where nothing holds the object in its place, outliers of its outlines would.
+  registration.SetKernels(unheld_ || slip_.free() ? KernelWidths() : kernel_widths_);
   registration.SetObservations(some, edges_);
   const PoseSearchPrior prior = SearchPrior(frame.stamp_ns);
   const auto conflict = [&](const PoseObjectFromCamera& T_oc) {
