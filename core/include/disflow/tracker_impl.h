@@ -118,7 +118,6 @@ void Tracker<Limits>::Forget() noexcept {
   field_.Start(config_.field);
   model_edges_.Start();
   outline_scale_ = {};
-  kernel_widths_ = {};
   pose_noise_ = {};
   seen_.Start();
 }

@@ -95,7 +95,6 @@ RegistrationResult Registration<Limits>::Align(const Field& field, const Model& 
   // Once, at the end: it costs a factorisation.
   if (result.solved) {
     result.rounding = {edges.radius_m(), joint.RadiusVariance(equations)};
-    result.spread = SpreadOf<Limits::kMaxRegistrationPoints>(surfaces, result.T_oc);
     result.edge_spread = SpreadOf<Limits::kMaxEdgePoints>(edges, result.T_oc);
     result.information.of_edge_errors = OfEdgeErrors(edges, config, pace.scale(), result);
   }
@@ -116,8 +115,8 @@ RegistrationInformation Registration<Limits>::KnownInformation(const Field& fiel
   edges.SetRadius(result.rounding.radius_m);
   const RobustScale settled;
   // Finds what the edges are matched with.
-  (void)AddResiduals(edges, result.T_oc, result.center_m,
-                     {config, settled.edges_m, widths_.of_edges(), kEdgeBias_m}, Matching::kSearch);
+  (void)AddResiduals(edges, result.T_oc, result.center_m, {config, settled.edges_m},
+                     Matching::kSearch);
   result.information.total =
       Linearise(surfaces, edges, config, settled, Matching::kLinear, result).WithoutRadius().h;
   result.information.of_edge_errors = OfEdgeErrors(edges, config, settled, result);
@@ -128,9 +127,8 @@ RegistrationInformation Registration<Limits>::KnownInformation(const Field& fiel
 template <class Limits>
 Mat6 Registration<Limits>::OfEdgeErrors(EdgeResiduals<Limits>& edges,
                                         const RegistrationConfig& config, const RobustScale& scale,
-                                        const Result& result) const noexcept {
-  const ResidualWeighting weighting{config, scale.edges_m, widths_.of_edges(), kEdgeBias_m,
-                                    result.edge_trust};
+                                        const Result& result) noexcept {
+  const ResidualWeighting weighting{config, scale.edges_m, result.edge_trust};
   ResidualSums along;
   ResidualSums behind;
   for (int i = 0; i < edges.size(); ++i) {
@@ -157,17 +155,16 @@ NormalEquations Registration<Limits>::Linearise(SurfaceResiduals<Limits>& surfac
   NormalEquations equations;
   const PoseObjectFromCamera& T_oc = result.T_oc;
   const Vec3 center_m = T_oc * center_c_;
-  const ResidualSums surface = AddResiduals(
-      surfaces, T_oc, center_m, {config, scale.surface_m, widths_.of_surface()}, matching);
+  const ResidualSums surface =
+      AddResiduals(surfaces, T_oc, center_m, {config, scale.surface_m}, matching);
   equations += surface.normals;
   // Of the surface alone: errors of the field's gradients do not touch the edges.
   result.information.surface = equations.h;
   result.information.across = equations.Isotropic() - equations.h;
   result.information.gradient_variance_rad2 = kFieldsTilt * surface.mean_tilt_rad2();
-  const ResidualSums edge = AddResiduals(
-      edges, T_oc, center_m,
-      {config, scale.edges_m, widths_.of_edges(), kEdgeBias_m, result.edge_trust, kEdgeInlierReach},
-      matching);
+  const ResidualSums edge =
+      AddResiduals(edges, T_oc, center_m,
+                   {config, scale.edges_m, result.edge_trust, kEdgeInlierWeight}, matching);
   equations += edge.normals;
 
   const EdgeRounding& known = edges.known_rounding();
