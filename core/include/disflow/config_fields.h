@@ -134,7 +134,8 @@ constexpr void VisitFields(ConfigType& config, Visitor&& visitor) {
       "registration.robust_scale_start_m", reg.robust_scale_start_m, 1e-4, 1.0, "m",
       "robust kernel width at the first step of a search, narrower at each; half as much without");
   field("registration.robust_scale_sigmas", reg.robust_scale_sigmas, 0.5, 20.0, "sigma",
-        "robust kernel width at the last step");
+        "robust kernel width at the last step; up to twice as much where noise is all that "
+        "residuals show");
   field("registration.truncation_m", reg.truncation_m, 1e-4, 1.0, "m",
         "residuals beyond are ignored");
   field("registration.min_normal_cos", reg.min_normal_cos, -1.0, 0.99, "1",

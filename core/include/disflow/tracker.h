@@ -218,6 +218,7 @@ class Tracker {
   typename Registration<Limits>::Edges edges_;
   SampledOutline outline_;  ///< That they are on.
   OutlineScale outline_scale_;
+  KernelWidth kernel_width_;
   Field field_;
   EdgeMap<Limits::kMaxModelEdges> model_edges_;
   SeenSpace<Limits::kMaxSeenViews, Limits::kSeenCells> seen_;

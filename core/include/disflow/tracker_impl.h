@@ -118,6 +118,7 @@ void Tracker<Limits>::Forget() noexcept {
   field_.Start(config_.field);
   model_edges_.Start();
   outline_scale_ = {};
+  kernel_width_ = {};
   pose_noise_ = {};
   seen_.Start();
 }

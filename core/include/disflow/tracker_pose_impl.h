@@ -30,6 +30,7 @@ typename Tracker<Limits>::Aligned Tracker<Limits>::Register(const DepthFrame& fr
   // Starting poses are compared on a part of the samples: they are many and need not be precise.
   const EveryNth some(samples_, PoseSearch<Limits>::kPoints);
   auto& registration = scratch_.template Begin<Registration<Limits>>();
+  registration.SetKernel(kernel_width_);
   registration.SetObservations(some, edges_);
   const PoseSearchPrior prior = SearchPrior(frame.stamp_ns);
   const auto conflict = [&](const PoseObjectFromCamera& T_oc) {
@@ -172,6 +173,7 @@ void Tracker<Limits>::Follow(StampNs stamp_ns, const Aligned& aligned,
   estimate.weak = FindWeakDirection(covariance.reported, config_.monitor);
   model_edges_.SetRounding(Remember(model_edges_.rounding(), aligned.rounding));
   outline_scale_.Learn(outline_.source, aligned.edge_spread);
+  kernel_width_.Learn(aligned.spread);
   field_.SetGeneration(aligned.generation + pose_noise_.of_rotation());
   field_.SetPieceVariance(covariance.piece_m2);
   registered_covariance_ = covariance.reported;

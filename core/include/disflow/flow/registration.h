@@ -10,6 +10,7 @@
 #include "disflow/field/distance_field.h"
 #include "disflow/field/edge_map.h"
 #include "disflow/flow/edge_residual.h"
+#include "disflow/flow/kernel_width.h"
 #include "disflow/flow/normal_equations.h"
 #include "disflow/flow/registration_result.h"
 #include "disflow/flow/surface_residual.h"
@@ -50,6 +51,8 @@ class Registration {
   }
   /// Whether edges that were found while the object may have slid are left out from now on.
   void UseKnownEdges(bool known_only) noexcept { known_edges_ = known_only; }
+  /// How wide the surface's robust kernel ends from now on.
+  void SetKernel(const KernelWidth& width) noexcept { surface_width_ = width; }
   /// The points to register.
   [[nodiscard]] const Samples& samples() const noexcept { return samples_; }
   /// The points' centroid, camera frame.
@@ -89,6 +92,8 @@ class Registration {
   /// Share of the squared tilt between normals and gradients that is the gradients': those of the
   /// model average 15 observations, of which a correlation of 0.7 from frame to frame leaves 3.
   static constexpr float kFieldsTilt = 0.25F;
+  /// Of edges whose noise is known 95 % are within two standard deviations.
+  static constexpr float kEdgeInlierReach = 2.0F;
 
   [[nodiscard]] static Mat6 OfEdgeErrors(EdgeResiduals<Limits>& edges,
                                          const RegistrationConfig& config, const RobustScale& scale,
@@ -102,6 +107,7 @@ class Registration {
                                           Result& result) const noexcept;
 
   Samples samples_;
+  KernelWidth surface_width_;
   bool known_edges_ = false;
   typename SurfaceResiduals<Limits>::Known known_;
   typename EdgeResiduals<Limits>::Index edge_index_;

@@ -95,6 +95,7 @@ RegistrationResult Registration<Limits>::Align(const Field& field, const Model& 
   // Once, at the end: it costs a factorisation.
   if (result.solved) {
     result.rounding = {edges.radius_m(), joint.RadiusVariance(equations)};
+    result.spread = SpreadOf<Limits::kMaxRegistrationPoints>(surfaces, result.T_oc);
     result.edge_spread = SpreadOf<Limits::kMaxEdgePoints>(edges, result.T_oc);
     result.information.of_edge_errors = OfEdgeErrors(edges, config, pace.scale(), result);
   }
@@ -128,7 +129,7 @@ template <class Limits>
 Mat6 Registration<Limits>::OfEdgeErrors(EdgeResiduals<Limits>& edges,
                                         const RegistrationConfig& config, const RobustScale& scale,
                                         const Result& result) noexcept {
-  const ResidualWeighting weighting{config, scale.edges_m, result.edge_trust};
+  const ResidualWeighting weighting{config, scale.edges_m, 1.0F, result.edge_trust};
   ResidualSums along;
   ResidualSums behind;
   for (int i = 0; i < edges.size(); ++i) {
@@ -155,8 +156,8 @@ NormalEquations Registration<Limits>::Linearise(SurfaceResiduals<Limits>& surfac
   NormalEquations equations;
   const PoseObjectFromCamera& T_oc = result.T_oc;
   const Vec3 center_m = T_oc * center_c_;
-  const ResidualSums surface =
-      AddResiduals(surfaces, T_oc, center_m, {config, scale.surface_m}, matching);
+  const ResidualSums surface = AddResiduals(
+      surfaces, T_oc, center_m, {config, scale.surface_m, surface_width_.factor()}, matching);
   equations += surface.normals;
   // Of the surface alone: errors of the field's gradients do not touch the edges.
   result.information.surface = equations.h;
@@ -164,7 +165,7 @@ NormalEquations Registration<Limits>::Linearise(SurfaceResiduals<Limits>& surfac
   result.information.gradient_variance_rad2 = kFieldsTilt * surface.mean_tilt_rad2();
   const ResidualSums edge =
       AddResiduals(edges, T_oc, center_m,
-                   {config, scale.edges_m, result.edge_trust, kEdgeInlierWeight}, matching);
+                   {config, scale.edges_m, 1.0F, result.edge_trust, kEdgeInlierReach}, matching);
   equations += edge.normals;
 
   const EdgeRounding& known = edges.known_rounding();

@@ -37,7 +37,8 @@ struct RegistrationResult {
   int points = 0;  ///< That were registered.
   int inliers = 0;
   int edge_inliers = 0;
-  /// How far the edges are off, in their standard deviations; 0 if that is not known.
+  /// How far samples and edges are off, in their standard deviations; 0 if that is not known.
+  float spread = 0.0F;
   float edge_spread = 0.0F;
   float edge_trust = 1.0F;  ///< How far edges are believed, 0..1: as far as they agree.
   float rms_m = 0.0F;

@@ -3,8 +3,6 @@
 
 #include <cstdint>
 
-#include "disflow/config.h"
-#include "disflow/flow/normal_equations.h"
 #include "disflow/geometry/transform.h"
 
 /// @file
@@ -16,7 +14,7 @@
 ///   i under a pose, searched for within reach of a robust kernel of width scale_m, or matched with
 ///   what the last search found.
 ///
-/// Gates, weights and sums are the same for all kinds and are here. A further kind is one more
+/// Gates, weights and sums are the same for all kinds: residual_sums.h. A further kind is one more
 /// file, and one more line in Registration::Linearise().
 
 namespace disflow {
@@ -47,59 +45,11 @@ struct Residual {
   float tilt_rad2 = 0.0F;
 };
 
-/// Where residuals are as large as the robust kernel is wide.
-inline constexpr float kInlierWeight = 0.25F;
-/// Where they are twice as large: of edges whose noise is known 95 %.
-inline constexpr float kEdgeInlierWeight = 0.04F;
-
-/// How the residuals of one kind are weighted in one step (section V-E and additions to the paper).
-struct ResidualWeighting {
-  const RegistrationConfig& config;
-  float scale_m;       ///< Width of the robust kernel.
-  float trust = 1.0F;  ///< How far this kind is believed, 0..1.
-  /// Weight of the robust kernel from which on a residual supports the pose.
-  float inlier_weight = kInlierWeight;
-};
-
 /// How observations find what they are matched with.
 enum class Matching : std::uint8_t {
   kSearch,  ///< Anywhere near.
   kKeep,    ///< In the piece of surface of the last step, whose field is asked anew.
   kLinear,  ///< The same, by what its field was there, to first order.
 };
-
-/// Sums over the residuals of one kind in one step.
-struct ResidualSums {
-  int inliers = 0;  ///< Residuals that the robust kernel hardly weakens.
-  int unmatched = 0;
-  int unexpected = 0;
-  int normal_mismatch = 0;
-  int truncated = 0;
-  /// With the robust kernel's weights alone.
-  float weight = 0.0F;
-  float weighted_square_m2 = 0.0F;
-  float weighted_generation = 0.0F;
-  /// With the weights in the normal equations.
-  float information = 0.0F;
-  float informed_tilt_rad2 = 0.0F;
-
-  NormalSums normals;  ///< What they add to the normal equations.
-
-  [[nodiscard]] float mean_generation() const noexcept;
-  [[nodiscard]] float mean_tilt_rad2() const noexcept;  ///< Not negative.
-  [[nodiscard]] float rms_m() const noexcept;
-  /// The standard deviation that the residuals have by what is known of them, harmonic mean.
-  [[nodiscard]] float std_m() const noexcept;
-  /// Gates one residual, weights it, and adds it.
-  /// @param center_m Centre of rotation, object frame. Defined in residual_sums_impl.h.
-  void Add(const Residual& residual, const ResidualWeighting& weighting,
-           const Vec3& center_m) noexcept;
-};
-
-/// Adds all residuals of one kind. Defined in residual_sums_impl.h.
-template <class Residuals>
-[[nodiscard]] ResidualSums AddResiduals(Residuals& residuals, const PoseObjectFromCamera& T_oc,
-                                        const Vec3& center_m, const ResidualWeighting& weighting,
-                                        Matching matching) noexcept;
 
 }  // namespace disflow

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "disflow/flow/normal_equations.h"
-#include "disflow/flow/residual.h"
+#include "disflow/flow/residual_sums.h"
 #include "disflow/memory/fixed_vector.h"
 #include "disflow/memory/median.h"
 
@@ -72,8 +72,9 @@ inline void ResidualSums::Add(const Residual& residual, const ResidualWeighting&
   const float per_norm = 1.0F / residual.gradient_norm;
   const float residual_m = per_norm * residual.distance_m;
   const float sigma_m = std::sqrt(residual.variance_m2);
+  const float narrow_m = config.robust_scale_sigmas * sigma_m;
   const float robust =
-      GemanMcClure(residual_m, std::max(weighting.scale_m, config.robust_scale_sigmas * sigma_m));
+      GemanMcClure(residual_m, std::max(weighting.scale_m, weighting.widening * narrow_m));
   const float row_weight = weighting.trust * robust * std::min(residual.gradient_norm, 1.0F) /
                            (residual.variance_m2 + BlurVariance(weighting.scale_m));
   normals.Add(residual.point_m - center_m, per_norm * residual.gradient, residual_m, row_weight,
@@ -83,7 +84,8 @@ inline void ResidualSums::Add(const Residual& residual, const ResidualWeighting&
   weighted_generation += robust * residual.generation;
   information += row_weight;
   informed_tilt_rad2 += row_weight * residual.tilt_rad2;
-  if (robust > weighting.inlier_weight) ++inliers;
+  const float reach_m = weighting.inlier_reach * std::max(weighting.scale_m, narrow_m);
+  if (std::abs(residual_m) < reach_m) ++inliers;
 }
 
 template <class Residuals>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "disflow/flow/residual.h"
+#include "disflow/flow/residual_sums.h"
 
 #include <cmath>
 
