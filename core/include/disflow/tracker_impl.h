@@ -221,7 +221,7 @@ Status Tracker<Limits>::Observe(const DepthFrame& frame, Estimate& estimate,
                                              object_mask_, overrun_, estimate.rejected);
   contact_ = segmenter.contact();
   if (segmented != Status::kOk) return segmented;
-  const ErodedMask interior(object_mask_, config_.sampler.border_px);
+  const auto interior = InteriorOf(object_mask_, config_.sampler.border_px);
   stopwatch.Mark(Stage::kSegment);
 
   const DepthReader depth = UsableDepth(frame);

@@ -203,6 +203,35 @@ TEST(ErodedMask, KeepsPixelsWhoseSquareIsSet) {
   }
 }
 
+/// A mask of one rectangle.
+Mask Rectangle(int width_px, int height_px) {
+  const std::vector<std::uint8_t> row(static_cast<std::size_t>(kWidth_px), 200);
+  Mask mask;
+  mask.Start(kWidth_px, kHeight_px);
+  for (int v = 0; v < height_px; ++v) mask.SetFromBytes(v + 2, 10, 10 + width_px, row.data());
+  mask.Finish();
+  return mask;
+}
+
+TEST(InteriorOf, OfALargeThing_LacksTheWholeBorder) {
+  EXPECT_EQ(InteriorOf(Rectangle(120, 36), 1).count(), 118 * 34);
+}
+
+TEST(InteriorOf, WithABorderThatCostsTooMuch_LacksANarrowerOne) {
+  EXPECT_EQ(InteriorOf(Rectangle(120, 36), 3).count(), 118 * 34);
+}
+
+TEST(InteriorOf, OfASmallOrThinThing_IsAllOfIt) {
+  EXPECT_EQ(InteriorOf(Rectangle(20, 10), 1).count(), 20 * 10);
+  EXPECT_EQ(InteriorOf(Rectangle(120, 8), 2).count(), 120 * 8);
+}
+
+TEST(InteriorOf, WithoutABorder_IsTheMask) {
+  EXPECT_EQ(InteriorOf(Rectangle(120, 36), 0).count(), 120 * 36);
+}
+
+TEST(InteriorOf, OfAnEmptyMask_IsEmpty) { EXPECT_EQ(InteriorOf(Rectangle(0, 0), 1).count(), 0); }
+
 TEST(PixelMask, Outline_IsWhatHasAnUnsetNeighbour) {
   for (const double share : {0.02, 0.5, 0.98, 1.0}) {
     const PlainMask plain(share, 11);
