@@ -16,8 +16,9 @@ void KernelWidth::Learn(float spread) noexcept {
   if (!(spread > 0.0F)) return;
   const float seen = std::min(spread, kMostDeviations);
   spread_ = spread_ > 0.0F ? spread_ + kRate * (seen - spread_) : seen;
-  // What deviates by more than is known of noise is the model's or the mask's error, and no noise.
-  factor_ = std::clamp(kSpreads * spread_, 1.0F, kSpreads);
+  // What spreads by more than is known of noise is the model's or the mask's error: the more of it,
+  // the less noise is all there is, and the kernel narrows again.
+  factor_ = std::max(kSpreads * std::min(spread_, 1.0F / spread_), 1.0F);
 }
 
 }  // namespace disflow

@@ -62,10 +62,14 @@ TEST(KernelWidth, WhereResidualsAreCloserThanTheirNoise_StaysNarrow) {
   EXPECT_FLOAT_EQ(After(0.5F).factor(), 1.0F);
 }
 
-TEST(KernelWidth, OfAModelThatIsOff_IsNoWiderThanOfNoise) {
-  const float of_noise = After(1.0F).factor();
-  EXPECT_FLOAT_EQ(After(5.0F).factor(), of_noise);
-  EXPECT_FLOAT_EQ(After(30.0F).factor(), of_noise);
+TEST(KernelWidth, OfAModelThatIsOff_IsNarrowerTheMoreItIsOff) {
+  float before = After(1.0F).factor();
+  for (const float spread : {1.2F, 1.5F, 1.8F}) {
+    const float factor = After(spread).factor();
+    EXPECT_LT(factor, before) << spread;
+    before = factor;
+  }
+  for (const float spread : {2.0F, 5.0F, 30.0F}) EXPECT_FLOAT_EQ(After(spread).factor(), 1.0F);
 }
 
 TEST(KernelWidth, AfterOneFrameAmongMany_HardlyChanges) {
