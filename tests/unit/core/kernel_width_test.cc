@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kFrames = 200;
 
-KernelWidth After(float spread) {
+KernelWidth AfterSpread(float spread) {
   KernelWidth width;
   for (int frame = 0; frame < kFrames; ++frame) width.Learn(spread);
   return width;
@@ -54,27 +54,28 @@ TEST(KernelWidth, BeforeAnythingIsLearnt_IsOneDeviation) {
 TEST(KernelWidth, WhereResidualsAreTheNoiseThatIsKnown_MostOfWhatTheyTellCounts) {
   // Cramer and Rao's bound is 1.
   EXPECT_GT(VarianceOfMean(KernelWidth().factor()), 1.8);
-  EXPECT_LT(VarianceOfMean(After(1.0F).factor()), 1.4);
+  EXPECT_LT(VarianceOfMean(AfterSpread(1.0F).factor()), 1.4);
 }
 
 TEST(KernelWidth, WhereResidualsAreCloserThanTheirNoise_StaysNarrow) {
-  EXPECT_FLOAT_EQ(After(0.3F).factor(), 1.0F);
-  EXPECT_FLOAT_EQ(After(0.5F).factor(), 1.0F);
+  EXPECT_FLOAT_EQ(AfterSpread(0.3F).factor(), 1.0F);
+  EXPECT_FLOAT_EQ(AfterSpread(0.5F).factor(), 1.0F);
 }
 
 TEST(KernelWidth, OfAModelThatIsOff_IsNarrowerTheMoreItIsOff) {
-  float before = After(1.0F).factor();
+  float before = AfterSpread(1.0F).factor();
   for (const float spread : {1.2F, 1.5F, 1.8F}) {
-    const float factor = After(spread).factor();
+    const float factor = AfterSpread(spread).factor();
     EXPECT_LT(factor, before) << spread;
     before = factor;
   }
-  for (const float spread : {2.0F, 5.0F, 30.0F}) EXPECT_FLOAT_EQ(After(spread).factor(), 1.0F);
+  for (const float spread : {2.0F, 5.0F, 30.0F})
+    EXPECT_FLOAT_EQ(AfterSpread(spread).factor(), 1.0F);
 }
 
 TEST(KernelWidth, AfterOneFrameAmongMany_HardlyChanges) {
   for (const float odd : {0.1F, 20.0F}) {
-    KernelWidth width = After(0.8F);
+    KernelWidth width = AfterSpread(0.8F);
     const float before = width.factor();
     width.Learn(odd);
     EXPECT_NEAR(width.factor(), before, 0.25F);
@@ -82,7 +83,7 @@ TEST(KernelWidth, AfterOneFrameAmongMany_HardlyChanges) {
 }
 
 TEST(KernelWidth, WhereAFrameTellsNothing_StaysAsItWas) {
-  KernelWidth width = After(0.8F);
+  KernelWidth width = AfterSpread(0.8F);
   const float before = width.factor();
   for (const float nothing : {0.0F, -1.0F, std::numeric_limits<float>::quiet_NaN()}) {
     width.Learn(nothing);

@@ -9,7 +9,7 @@ namespace disflow {
 namespace {
 
 using Evidence = TrackingMonitor::Evidence;
-constexpr StampNs kFrame_ns = 33'333'333;
+constexpr StampNs kFrameStep_ns = 33'333'333;
 
 Evidence Good() {
   return {.registered = true,
@@ -48,7 +48,7 @@ class TrackingMonitorTest : public ::testing::Test {
 
   /// The next frame, as the tracker asks and tells.
   void Offer(Evidence evidence) {
-    stamp_ns_ += kFrame_ns;
+    stamp_ns_ += kFrameStep_ns;
     evidence.registered = monitor_.Accepts(evidence, stamp_ns_);
     monitor_.Update(evidence, stamp_ns_);
   }
@@ -60,7 +60,7 @@ class TrackingMonitorTest : public ::testing::Test {
     ASSERT_EQ(monitor_.state(), TrackingState::kTracking);
   }
   [[nodiscard]] bool Accepts(const Evidence& evidence) const {
-    return monitor_.Accepts(evidence, stamp_ns_ + kFrame_ns);
+    return monitor_.Accepts(evidence, stamp_ns_ + kFrameStep_ns);
   }
 
   MonitorConfig config_;
@@ -155,10 +155,10 @@ TEST_F(TrackingMonitorTest, SearchedPose_NeedsMore) {
 
 TEST_F(TrackingMonitorTest, LongGap_IsDoubtToo) {
   Track();
-  EXPECT_FALSE(monitor_.Doubts(stamp_ns_ + kFrame_ns));
-  EXPECT_TRUE(monitor_.Doubts(stamp_ns_ + 6 * kFrame_ns));
+  EXPECT_FALSE(monitor_.Doubts(stamp_ns_ + kFrameStep_ns));
+  EXPECT_TRUE(monitor_.Doubts(stamp_ns_ + 6 * kFrameStep_ns));
   EXPECT_FALSE(
-      monitor_.Accepts(With([](Evidence& e) { e.score = 0.7F; }), stamp_ns_ + 6 * kFrame_ns));
+      monitor_.Accepts(With([](Evidence& e) { e.score = 0.7F; }), stamp_ns_ + 6 * kFrameStep_ns));
 }
 
 TEST_F(TrackingMonitorTest, TrackingIsClaimed_OnlyWithinEveryBound) {
@@ -267,7 +267,7 @@ TEST_F(TrackingMonitorTest, NothingInView_TheModelIsKept) {
   EXPECT_EQ(monitor_.searched(), 0);
   EXPECT_FALSE(monitor_.ShouldRestart());
   // Nor does the time before count when something comes into view.
-  stamp_ns_ += 100 * kFrame_ns;
+  stamp_ns_ += 100 * kFrameStep_ns;
   Offer(InVain(), 40);
   EXPECT_EQ(monitor_.searched(), 40);
   EXPECT_FALSE(monitor_.ShouldRestart());
@@ -341,7 +341,7 @@ TEST_F(TrackingMonitorTest, StampsAtBothEndsOfTime_AreFarApart) {
   constexpr StampNs kLast_ns = std::numeric_limits<StampNs>::max();
   monitor_.Start(config_, kFirst_ns);
   monitor_.Confirm();
-  EXPECT_FALSE(monitor_.Doubts(kFirst_ns + kFrame_ns));
+  EXPECT_FALSE(monitor_.Doubts(kFirst_ns + kFrameStep_ns));
   for (const StampNs stamp_ns : {StampNs{-1}, StampNs{0}, StampNs{1}, kLast_ns})
     EXPECT_TRUE(monitor_.Doubts(stamp_ns)) << stamp_ns;
   for (int i = 0; i < config_.lost_after_frames; ++i) monitor_.Update(InVain(), kFirst_ns);
