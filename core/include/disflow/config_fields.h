@@ -77,8 +77,7 @@ constexpr void VisitFields(ConfigType& config, Visitor&& visitor) {
   field("sampler.max_block_px", sam.max_block_px, 1, 64, "px", "largest block edge");
   field("sampler.border_px", sam.border_px, 0, 16, "px",
         "pixels this close to the object's outline are not fitted, since those on it are mixed, "
-        "unless "
-        "that takes more than an eighth of the object away");
+        "unless that takes more than an eighth of the object away");
   field("sampler.min_cos_incidence", sam.min_cos_incidence, 0.0, 0.99, "1",
         "surfaces seen at a smaller cosine between ray and normal are rejected as grazing");
   field("sampler.min_fill", sam.min_fill, 0.05, 1.0, "1",

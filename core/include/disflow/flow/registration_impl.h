@@ -129,7 +129,8 @@ template <class Limits>
 Mat6 Registration<Limits>::OfEdgeErrors(EdgeResiduals<Limits>& edges,
                                         const RegistrationConfig& config, const RobustScale& scale,
                                         const Result& result) noexcept {
-  const ResidualWeighting weighting{config, scale.edges_m, 1.0F, result.edge_trust};
+  const ResidualWeighting weighting{
+      .config = config, .scale_m = scale.edges_m, .trust = result.edge_trust};
   ResidualSums along;
   ResidualSums behind;
   for (int i = 0; i < edges.size(); ++i) {
@@ -163,9 +164,12 @@ NormalEquations Registration<Limits>::Linearise(SurfaceResiduals<Limits>& surfac
   result.information.surface = equations.h;
   result.information.across = equations.Isotropic() - equations.h;
   result.information.gradient_variance_rad2 = kFieldsTilt * surface.mean_tilt_rad2();
-  const ResidualSums edge =
-      AddResiduals(edges, T_oc, center_m,
-                   {config, scale.edges_m, 1.0F, result.edge_trust, kEdgeInlierReach}, matching);
+  const ResidualSums edge = AddResiduals(edges, T_oc, center_m,
+                                         {.config = config,
+                                          .scale_m = scale.edges_m,
+                                          .trust = result.edge_trust,
+                                          .inlier_reach = kEdgeInlierReach},
+                                         matching);
   equations += edge.normals;
 
   const EdgeRounding& known = edges.known_rounding();
