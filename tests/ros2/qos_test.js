@@ -22,7 +22,8 @@ async function unpublish(...topics) {
 for (const qos of ["reliable", "latched", "best_effort", "best_effort_latched"]) {
   test(`Depth, camera info, masks, /tf and /tf_static of ${qos} writers are all heard, each message once`, async () => {
     const player = ballPlayer(peer, qos, qos);
-    await player.start("--sensor", sensorOf(qos), "--headless", "--csv", file(`${qos}.csv`),
+    // Its pixels are 9 mm wide on the ball, nearly as far as a sample is matched by default.
+    await player.start("--sensor", sensorOf(qos), "--headless", "--csv", file(`${qos}.csv`), "--set", "registration.match_radius_m=0.02",
       "--link", `dds:domain=${domain}&world=map&camera=eye&mask=/${qos}/mask`);
     // Topics of the link are there with the first frame.
     const sent = stamps.length - 1;
@@ -40,8 +41,8 @@ for (const qos of ["reliable", "latched", "best_effort", "best_effort_latched"])
     assert.match(said, new RegExp(`masks from /${qos}/mask: [1-9]\\d+ used`), said);
     const received = Number(/camera poses: (\d+) received/.exec(said)[1]);
     assert.ok(received <= 2 * sent, `two messages per image, each once: ${said}`);
-    // What is made of them is another test's: masks that come after the first images change what is tracked.
-    assert.ok(trajectory(file(`${qos}.csv`)).length >= sent, said);
+    const good = trajectory(file(`${qos}.csv`)).filter((row) => row.status === "ok");
+    assert.ok(good.length >= sent, said);
   });
 }
 
