@@ -34,7 +34,6 @@ inline SurfaceSample Observe(const SurfacePoint& point, const Observing& observi
   sample.normal = (point.normal + observing.normal_noise * shake).normalized();
   sample.variance_m2 = sample.fused_variance_m2 = sigma_m * sigma_m;
   sample.normal_variance = tilt * tilt;
-  sample.cos_incidence = 1.0F;
   return sample;
 }
 

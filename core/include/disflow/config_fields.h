@@ -142,8 +142,8 @@ constexpr void VisitFields(ConfigType& config, Visitor&& visitor) {
   field("registration.min_normal_cos", reg.min_normal_cos, -1.0, 0.99, "1",
         "observed and model normal must agree this well");
   field("registration.match_radius_m", reg.match_radius_m, 1e-4, 1.0, "m",
-        "tangential distance to the nearest model sample at most; not less than "
-        "field.merge_radius_m");
+        "tangential distance to the nearest model sample at most, or half the diagonal of a "
+        "sample's block of pixels where that is more; not less than field.merge_radius_m");
   field("registration.min_gradient_norm", reg.min_gradient_norm, 0.0, 1.0, "1",
         "weaker gradients carry no information");
   field("registration.damping", reg.damping, 0.0, 1.0, "1",

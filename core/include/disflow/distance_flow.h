@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "disflow/estimate.h"
+#include "disflow/flow/sample_match.h"
 #include "disflow/tracker.h"
 #include "disflow/types.h"
 
@@ -60,9 +61,7 @@ int StreamFlow(const Tracker<Limits>& tracker, const Estimate& estimate, FlowSin
     sample.position_m = observed.position_m;
     sample.normal = observed.normal;
     sample.flow_mps = VelocityAt(estimate, observed.position_m);
-    const auto match =
-        tracker.field().FindMatch(T_oc * observed.position_m, T_oc.rotation() * observed.normal,
-                                  config.match_radius_m, config.min_normal_cos);
+    const auto match = MatchOf(tracker.field(), config, T_oc, observed);
     if (match.found) {
       sample.distance_m = match.distance_m;
       sample.gradient = estimate.T_co.rotation() * match.gradient;

@@ -77,6 +77,29 @@ TEST(SurfaceSampler, SurfaceAtAPixel_IsThatOfItsBlock) {
   EXPECT_LT((surface.normal - Vec3(0.0F, 0.0F, -1.0F)).norm(), 1e-3F);
 }
 
+TEST(SurfaceSampler, WallThatFacesTheCamera_IsAsFarFromItsSamplesAsTheyReach) {
+  for (const int edge_px : {2, 5, 9}) {
+    Wall<profiles::Edge> wall([](int, int) { return false; });
+    wall.config.min_block_px = wall.config.max_block_px = edge_px;
+    const int edge = 10 * edge_px;
+    wall.Sample([&](int u, int v) { return u < edge && v < edge; });
+    ASSERT_EQ(wall.samples->size(), 100);
+    float farthest_m = 0.0F;
+    // Pixels are seen up to half of one beyond their middle.
+    for (float v = -0.5F; v < static_cast<float>(edge); v += 0.5F) {
+      for (float u = -0.5F; u < static_cast<float>(edge); u += 0.5F) {
+        float nearest_m = 1e30F;
+        for (const SurfaceSample& sample : *wall.samples)
+          nearest_m =
+              std::min(nearest_m, (kDepth_m * kCamera.Ray(u, v) - sample.position_m).norm());
+        farthest_m = std::max(farthest_m, nearest_m);
+      }
+    }
+    for (const SurfaceSample& sample : *wall.samples)
+      EXPECT_NEAR(sample.reach_m, farthest_m, 1e-5F) << edge_px;
+  }
+}
+
 TEST(SurfaceSampler, WhereThereAreNoPixels_IsNoSurface) {
   const Wall<profiles::Edge> wall(
       [](int u, int v) { return u < 250 && (u < 100 || u > 200 || v < 50); });

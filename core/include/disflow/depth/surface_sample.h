@@ -14,7 +14,9 @@ struct SurfaceSample {
   float fused_variance_m2 =
       0.0F;                      ///< Same, of the whole fitted window: what the model may believe.
   float normal_variance = 0.0F;  ///< Per tangential component [rad^2].
-  float cos_incidence = 0.0F;    ///< Between viewing ray and normal, positive.
+  /// Half the diagonal of its block of pixels, across the viewing ray: as far as a point of surface
+  /// that faces the camera may lie from the nearest such sample. 0 if no camera saw it.
+  float reach_m = 0.0F;
 };
 
 /// A point where a steady surface ends in front of something farther away.

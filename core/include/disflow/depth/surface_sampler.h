@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 
 #include "disflow/config.h"
 #include "disflow/depth/block_contrasts.h"
@@ -29,7 +30,7 @@ struct BlockPlane {
   Vec3 position_m = Vec3::Zero();  ///< Where the block lies on it.
   float variance_m2 = 0.0F;        ///< Of that position along the normal.
   float normal_variance = 0.0F;
-  float cos_incidence = 0.0F;
+  float cos_incidence = 0.0F;  ///< Between viewing ray and normal, positive.
 };
 
 /// Turns the object's pixels into at most M surface samples with position, normal and variance.
@@ -78,7 +79,7 @@ class SurfaceSampler {
             s.position_m,
             s.fused_variance_m2,
             s.normal_variance,
-            s.cos_incidence};
+            -s.normal.dot(s.position_m) / s.position_m.norm()};
   }
 
   [[nodiscard]] float noise_std() const noexcept { return noise_std_; }
@@ -247,12 +248,14 @@ class SurfaceSampler {
     const float depth_m = 1.0F / w;
     sample.normal = -g / g_norm;
     sample.position_m = depth_m * ray;
-    sample.cos_incidence = w / (g_norm * ray_norm);
-    if (sample.cos_incidence < config.min_cos_incidence) return false;
+    const float cos_incidence = w / (g_norm * ray_norm);
+    if (cos_incidence < config.min_cos_incidence) return false;
+    sample.reach_m = depth_m * std::numbers::sqrt2_v<float> * 0.5F *
+                     static_cast<float>(grid_.block_px()) / camera.fx_px;
     // dz = z^2 dw along the ray; projected onto the normal.
     const float effective_std =
         std::sqrt(std::max(noise_std_ * noise_std_, plane.residual_variance));
-    const float along_normal = depth_m * depth_m * ray_norm * sample.cos_incidence * effective_std;
+    const float along_normal = depth_m * depth_m * ray_norm * cos_incidence * effective_std;
     const float floor = config.sample_floor_m * config.sample_floor_m;
     sample.variance_m2 = along_normal * along_normal / own.n + floor;
     sample.fused_variance_m2 = along_normal * along_normal * plane.Leverage(du, dv) + floor;

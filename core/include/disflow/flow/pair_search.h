@@ -7,6 +7,7 @@
 
 #include "disflow/flow/oriented_pair.h"
 #include "disflow/flow/registration_impl.h"
+#include "disflow/flow/sample_match.h"
 #include "disflow/memory/fixed_vector.h"
 
 namespace disflow {
@@ -139,8 +140,9 @@ class PairSearch {
       if (i >= kFew && sum < kLeast * static_cast<float>(i)) return 0.0F;
       const SurfaceSample& sample = SampleAt(static_cast<std::uint32_t>(i) * 2654435769U);
       const Vec3 x_m = T_oc * sample.position_m;
-      const Handle nearest = field_.store().FindNearest(
-          x_m, T_oc.rotation() * sample.normal, config_.match_radius_m, config_.min_normal_cos);
+      const Handle nearest =
+          field_.store().FindNearest(x_m, T_oc.rotation() * sample.normal,
+                                     MatchRadius(sample, config_), config_.min_normal_cos);
       if (nearest == kNoHandle) continue;
       const auto& cluster = field_.store()[nearest];
       const Vec3 off_m = x_m - cluster.centroid_m;

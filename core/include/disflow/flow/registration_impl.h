@@ -4,6 +4,7 @@
 #include "disflow/flow/registration.h"
 #include "disflow/flow/registration_pace.h"
 #include "disflow/flow/residual_sums_impl.h"
+#include "disflow/flow/sample_match.h"
 
 /// @file
 /// Scores and steps of a registration: definitions of members of Registration.
@@ -18,8 +19,7 @@ float Registration<Limits>::Score(const Field& field, const RegistrationConfig& 
   float sum = 0.0F;
   for (int i = 0; i < wanted; ++i) {
     const SurfaceSample& sample = samples_[i * samples_.size() / wanted];
-    const auto match = field.FindMatch(T_oc * sample.position_m, T_oc.rotation() * sample.normal,
-                                       config.match_radius_m, config.min_normal_cos);
+    const auto match = MatchOf(field, config, T_oc, sample);
     if (!match.found) continue;
     sum += Explained(match.distance_m, sample.variance_m2 + match.variance_m2);
   }

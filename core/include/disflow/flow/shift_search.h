@@ -7,6 +7,7 @@
 
 #include "disflow/flow/place_slip.h"
 #include "disflow/flow/registration.h"
+#include "disflow/flow/sample_match.h"
 #include "disflow/memory/fixed_vector.h"
 
 namespace disflow {
@@ -88,8 +89,7 @@ class ShiftSearch {
     float sum = 0.0F;
     for (const SurfaceSample* const telling : samples_) {
       const SurfaceSample& sample = *telling;
-      const auto match = field_.FindMatch(T_oc * sample.position_m, T_oc.rotation() * sample.normal,
-                                          config_.match_radius_m, config_.min_normal_cos);
+      const auto match = MatchOf(field_, config_, T_oc, sample);
       if (!match.found || field_.store()[match.cluster].shift_free) continue;
       sum += Explained(match.distance_m, sample.variance_m2 + match.variance_m2);
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include "disflow/config.h"
@@ -10,6 +11,14 @@
 #include "disflow/memory/fixed_vector.h"
 
 namespace disflow {
+
+/// How far along the surface the model's nearest sample may lie from where an observed one falls
+/// [m]. Of pixels that are wide the model's samples lie as far apart, and those of an image in
+/// which the object has moved by half a block fall between them. An addition to the paper.
+[[nodiscard]] inline float MatchRadius(const SurfaceSample& observed,
+                                       const RegistrationConfig& config) noexcept {
+  return std::max(config.match_radius_m, observed.reach_m);
+}
 
 /// Residuals of a frame's surface samples: their distance d from the model's surface (section V-C,
 /// d(x^o) = 0 if the pose is right), with the field's gradient as direction. A kind of residual as
@@ -46,7 +55,7 @@ class SurfaceResiduals {
     Correspondence& known = known_[static_cast<std::size_t>(i)];
     const bool keep = matching == Matching::kKeep;
     if (matching == Matching::kSearch || known.coarse || (keep && !known.match.found)) {
-      known = Search(x_o, T_oc.rotation() * sample.normal, scale_m);
+      known = Search(x_o, T_oc.rotation() * sample.normal, MatchRadius(sample, config_), scale_m);
     } else if (keep) {
       known.match = field_.Reuse(known.match, x_o);
       known.place_m = x_o;
@@ -59,12 +68,11 @@ class SurfaceResiduals {
   /// local GP.
   static constexpr float kCoarseScale_m = 0.002F;
 
-  [[nodiscard]] Correspondence Search(const Vec3& x_o, const Vec3& n_o,
+  [[nodiscard]] Correspondence Search(const Vec3& x_o, const Vec3& n_o, float radius_m,
                                       float scale_m) const noexcept {
     Correspondence found;
     found.place_m = x_o;
-    found.match =
-        field_.FindMatch(x_o, n_o, config_.match_radius_m + scale_m, config_.min_normal_cos);
+    found.match = field_.FindMatch(x_o, n_o, radius_m + scale_m, config_.min_normal_cos);
     found.coarse = !found.match.found && !found.match.normal_mismatch && scale_m > kCoarseScale_m;
     if (found.coarse) found.match = field_.FindCoarseMatch(x_o, n_o, config_.min_normal_cos);
     return found;

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "disflow/flow/registration.h"
+#include "disflow/flow/sample_match.h"
 #include "disflow/flow/turn_axis.h"
 
 namespace disflow {
@@ -106,8 +107,7 @@ class TurnSearch {
     SampleAtEach at;
     for (std::size_t k = 0; k < kPoses; ++k) {
       const PoseObjectFromCamera& T_oc = poses_[k];
-      const auto match = field_.FindMatch(T_oc * sample.position_m, T_oc.rotation() * sample.normal,
-                                          config_.match_radius_m, config_.min_normal_cos);
+      const auto match = MatchOf(field_, config_, T_oc, sample);
       if (match.normal_mismatch) continue;
       if (!match.found || field_.store()[match.cluster].turn_free) {
         at.explained[k] = kNoSurface;
