@@ -36,7 +36,8 @@ constexpr const char* kOnePixel[] = {"--seed", "505,340"};
 constexpr const char* kAsARoom[] = {"--profile", "dense", "--config", DISFLOW_ROOM_SETTINGS};
 
 /// How many samples each run fuses per frame at most. It makes the runs differ by as much as any
-/// change of the last bits does: a tenth of their error, by which one run alone passes or not.
+/// change of the last bits does: a tenth of their error and more, by which one run alone passes or
+/// not.
 constexpr const char* kFuseBudgets[] = {"297", "300", "303"};
 
 constexpr std::size_t kFrames = 99;

@@ -23,7 +23,7 @@ class WallOfWidePixels {
   explicit WallOfWidePixels(float pitch_m) : pitch_m_(pitch_m) {}
 
   /// @param shift How far the pixels lie beside where they were, in their width.
-  [[nodiscard]] WideRegistration::Samples Seen(float shift, float reach_m) const {
+  [[nodiscard]] WideRegistration::Samples Seen(float shift) const {
     WideRegistration::Samples samples;
     for (int row = 0; row < kAcross; ++row) {
       for (int column = 0; column < kAcross; ++column) {
@@ -34,7 +34,7 @@ class WallOfWidePixels {
         sample.normal = -Vec3::UnitZ();
         sample.variance_m2 = sample.fused_variance_m2 = 1e-6F;
         sample.normal_variance = 1e-4F;
-        sample.reach_m = reach_m;
+        sample.reach_m = pitch_m_ * std::numbers::sqrt2_v<float> / 2.0F;
         (void)samples.push_back(sample);
       }
     }
@@ -49,14 +49,13 @@ class WallOfWidePixels {
     auto field = std::make_unique<EdgeField>();
     field->Start({});
     Counters counters;
-    for (SurfaceSample sample : Seen(0.0F, reach_m())) {
+    for (SurfaceSample sample : Seen(0.0F)) {
       sample.position_m = T_oc() * sample.position_m;
       (void)field->Insert(sample, 1, counters);
     }
     (void)field->Retrain(1000, counters);
     return field;
   }
-  [[nodiscard]] float reach_m() const { return pitch_m_ * std::numbers::sqrt2_v<float> / 2.0F; }
 
  private:
   float pitch_m_;
@@ -69,7 +68,7 @@ TEST_P(SampleMatch, NearlyHalfABlockBesideTheModels_IsFoundHoweverWideThePixels)
   const auto model = wall.Model();
   const RegistrationConfig config;
   // The last row and column lie beyond what was seen by as much.
-  for (const SurfaceSample& sample : wall.Seen(0.45F, wall.reach_m()))
+  for (const SurfaceSample& sample : wall.Seen(0.45F))
     EXPECT_TRUE(MatchOf(*model, config, wall.T_oc(), sample).found)
         << sample.position_m.transpose();
 }
@@ -77,7 +76,7 @@ TEST_P(SampleMatch, NearlyHalfABlockBesideTheModels_IsFoundHoweverWideThePixels)
 TEST_P(SampleMatch, FartherThanItsBlockReaches_IsNotFound) {
   const WallOfWidePixels wall(GetParam());
   const auto model = wall.Model();
-  const SurfaceSample outermost = wall.Seen(2.0F, wall.reach_m()).back();
+  const SurfaceSample outermost = wall.Seen(2.0F).back();
   EXPECT_FALSE(MatchOf(*model, RegistrationConfig{}, wall.T_oc(), outermost).found);
 }
 
@@ -88,7 +87,7 @@ TEST_P(SampleMatch, NarrowKernelsOfTheLastSteps_LoseNoSample) {
   const WideRegistration::Edges no_edges;
   WideRegistration::Model no_model_edges;
   no_model_edges.Start();
-  registration->SetObservations(wall.Seen(0.45F, wall.reach_m()), no_edges);
+  registration->SetObservations(wall.Seen(0.45F), no_edges);
   constexpr float kNarrow_m = 1e-4F;
   const auto result = registration->Align(*model, no_model_edges, RegistrationConfig{}, wall.T_oc(),
                                           wall.T_oc(), {kNarrow_m, kNarrow_m}, {8});
