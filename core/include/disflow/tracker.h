@@ -160,6 +160,7 @@ class Tracker {
   [[nodiscard]] PoseCameraFromObject Predict(const DepthFrame& frame) const noexcept;
   [[nodiscard]] bool IsSameObjectFrame(const DepthFrame& frame,
                                        const PoseObjectFromCamera& T_oc) const noexcept;
+  [[nodiscard]] Mat6 CoastedCovariance(StampNs stamp_ns) const noexcept;
   void Coast(StampNs stamp_ns, Estimate& estimate) const noexcept;
   [[nodiscard]] Mat6 Steadied(const Mat6& unobserved_o, const Mat6& free_turn_o) const noexcept;
   [[nodiscard]] Mat6 TwistCovariance(const TwistFilter& filter,

@@ -237,14 +237,21 @@ float Tracker<Limits>::ImageSpeed(const DepthFrame& frame) const noexcept {
   return speed_mps * pixel_per_m;
 }
 
+/// What was not known of the pose when the object was last seen, and what has been added since.
+template <CapacityProfile Limits>
+Mat6 Tracker<Limits>::CoastedCovariance(StampNs stamp_ns) const noexcept {
+  TwistFilter coasting = twist_filter_;
+  coasting.Predict(stamp_ns);
+  return registered_covariance_ + coasting.pose_covariance();
+}
+
 /// What is known of the motion of an object that is not seen. The filter itself stays at the last
 /// registered frame: an acceleration measured there would carry a lost object away.
 template <CapacityProfile Limits>
 void Tracker<Limits>::Coast(StampNs stamp_ns, Estimate& estimate) const noexcept {
   TwistFilter coasting = twist_filter_;
   coasting.Predict(stamp_ns);
-  // What it was then and what has been added since.
-  estimate.pose_covariance = registered_covariance_ + coasting.pose_covariance();
+  estimate.pose_covariance = CoastedCovariance(stamp_ns);
   estimate.twist_covariance = TwistCovariance(coasting, estimate.pose_covariance);
   estimate.weak = FindWeakDirection(estimate.pose_covariance, config_.monitor);
 }

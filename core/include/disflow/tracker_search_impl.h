@@ -30,7 +30,11 @@ PoseSearchPrior Tracker<Limits>::SearchPrior(StampNs stamp_ns) const noexcept {
     prior.turned_over = true;
   }
   // What is found is compared with what is found elsewhere, too.
-  if (found || monitor_.searched() >= kLocalSearches) prior.global = global_part_;
+  if (found || monitor_.searched() >= kLocalSearches) {
+    prior.global = global_part_;
+    prior.expected_turn = {T_oc_.rotation(),
+                           CoastedCovariance(stamp_ns).template bottomRightCorner<3, 3>()};
+  }
   return prior;
 }
 

@@ -111,6 +111,18 @@ TEST_P(Loss, FullOcclusionWithoutAMask_IsSurvived) {
   ExpectSameObjectFrame();
 }
 
+TEST_P(Loss, FastThingThatLooksAlikeTurnedOver_IsFoundAsItsMotionTurnedIt) {
+  // Half a second in which it turns by 60 to 120 degrees: one side of two that look alike is seen.
+  host::SimulationOptions options = Scene(GetParam(), 100);
+  options.occluder = host::OccluderKind::kCurtain;
+  options.motion = host::MotionKind::kFast;
+  options.noise = host::NoiseKind::kD415;
+  options.seed = 8;
+  const TrackedSequence& sequence = Track(options, 100);
+  EXPECT_TRUE(sequence.WasEver(TrackingState::kRecovered));
+  ExpectSameObjectFrame();
+}
+
 TEST_P(Loss, DroppedFrames_AreBridged) {
   const TrackedSequence& sequence = Track(Scene(GetParam(), kFrames), kFrames, [](int i) {
     return i >= kGone && i < kBack ? Fate::kDropped : Fate::kSeen;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "disflow/flow/pair_search.h"
@@ -132,8 +133,10 @@ class PoseSearch {
 
   static constexpr float kEdgeShare = 0.3F;
   static constexpr float kDeviationShare = 0.15F;
-  /// Half a turn counts as much as 2 % of the surface: what a score scatters by.
-  static constexpr float kTurnShare_per_rad = 0.006F;
+  /// A nat of what the motion makes unlikely counts as much as 2 % of the surface: what a score
+  /// scatters by. From 20 on, which is six deviations, it was no such motion.
+  static constexpr float kTurnShare = 0.02F;
+  static constexpr float kMostTurnShare = 20.0F * kTurnShare;
   static constexpr float kBelievedShare = 0.5F;
   static constexpr float kSearchedShare = 0.25F;
 
@@ -180,11 +183,12 @@ class PoseSearch {
   [[nodiscard]] float Plausibility(const PoseObjectFromCamera& T_oc,
                                    const Conflict& conflict) const noexcept {
     const float deviation = Deviation(T_oc);
-    // Of what is searched for in all directions next to nothing is known of the motion: of what
-    // looks alike that is taken which is turned least.
+    // What is searched for in all directions may be far from where its motion left it; of what
+    // looks alike that is taken which this makes likeliest.
     const float unlikely =
         prior_.turned_over
-            ? kTurnShare_per_rad * TurnBetween(prior_.T_previous.rotation(), T_oc.rotation()).norm()
+            ? std::min(kTurnShare * prior_.expected_turn.Unlikelihood(T_oc.rotation()),
+                       kMostTurnShare)
             : kDeviationShare * deviation / (1.0F + deviation);
     return registration_.Score(field_, config_, T_oc) * (1.0F - conflict(T_oc)) +
            kEdgeShare * registration_.EdgeScore(edges_, config_, T_oc) - unlikely;

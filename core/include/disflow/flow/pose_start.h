@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "disflow/flow/expected_turn.h"
 #include "disflow/flow/registration_result.h"
 #include "disflow/geometry/transform.h"
 
@@ -33,6 +34,8 @@ struct PoseSearchPrior {
   /// What was searched for, `global`, may be where it is predicted, or turned over: many things
   /// look nearly alike then, and boxes do.
   bool turned_over = false;
+  /// By what is known of the motion of an object that is searched for.
+  ExpectedTurn expected_turn = {};
   /// The last pose was followed, but may have slid: the image contradicted it.
   bool contradicted = false;
   /// The same, but nothing held it in its place along a direction.
