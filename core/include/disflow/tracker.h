@@ -156,6 +156,8 @@ class Tracker {
   [[nodiscard]] bool FitsModel(const Vec3& center_c) const noexcept;
   void Follow(StampNs stamp_ns, const Aligned& aligned, const PoseCovariance& covariance,
               bool found_again, Estimate& estimate) noexcept;
+  [[nodiscard]] bool LooksElsewhere(const DepthFrame& frame) const noexcept;
+  [[nodiscard]] ModelPrior PriorOf(const DepthFrame& frame, bool doubtful) noexcept;
   [[nodiscard]] PoseSearchPrior SearchPrior(StampNs stamp_ns) const noexcept;
   [[nodiscard]] PoseCameraFromObject Predict(const DepthFrame& frame) const noexcept;
   [[nodiscard]] bool IsSameObjectFrame(const DepthFrame& frame,
@@ -225,8 +227,11 @@ class Tracker {
   SeenSpace<Limits::kMaxSeenViews, Limits::kSeenCells> seen_;
   TwistFilter twist_filter_;
   PoseNoise pose_noise_;
-  int global_part_ = 0;  ///< Of a search in all directions, the next.
-  int turn_part_ = 0;    ///< The same of a round about an axis.
+  bool elsewhere_ = false;  ///< What was observed lies away from where the object is predicted.
+  bool recognised_elsewhere_ = false;  ///< So does what recognition_ holds.
+  bool in_view_ = false;  ///< Something was where it is predicted, when that was looked at last.
+  int global_part_ = 0;   ///< Of a search in all directions, the next.
+  int turn_part_ = 0;     ///< The same of a round about an axis.
   TrackingMonitor monitor_;
   Recognition recognition_;
 };

@@ -5,6 +5,7 @@
 #include "disflow/depth/edge_sampler.h"
 #include "disflow/depth/eroded_mask.h"
 #include "disflow/depth/seen_space_impl.h"
+#include "disflow/depth/segmenter_anywhere_impl.h"
 #include "disflow/depth/segmenter_choice_impl.h"
 #include "disflow/depth/segmenter_impl.h"
 #include "disflow/depth/whole_windows_impl.h"
@@ -179,6 +180,7 @@ template <CapacityProfile Limits>
 Status Tracker<Limits>::Bridge(const DepthFrame& frame, Estimate& estimate) noexcept {
   last_stamp_ns_ = frame.stamp_ns;
   T_oc_ = Predict(frame).Inverse();
+  elsewhere_ = false;
   if (SpanNs(repeats_.first_ns(), frame.stamp_ns) > kLongestHiccup_ns) {
     (void)Conclude(frame, Status::kRepeatedImage, Aligned{}, estimate);
   } else {
@@ -199,20 +201,7 @@ Status Tracker<Limits>::Observe(const DepthFrame& frame, Estimate& estimate,
     object_mask_.Start(frame.depth.width_px, frame.depth.height_px);
     return Status::kEmptyMask;
   }
-  ModelPrior prior;
-  prior.nearest_in_vain = nearest_in_vain_;
-  if (started_) {
-    contact_.turned_rad += TurnBetween(T_oc_previous_.rotation(), T_oc_.rotation()).norm();
-    // A mask is then the better guide.
-    prior = {!(doubtful && frame.mask.given()),
-             doubtful,
-             Seconds(SpanNs(twist_filter_.stamp_ns(), frame.stamp_ns)),
-             T_oc_,
-             field_.bounds_min_m(),
-             field_.bounds_max_m(),
-             contact_,
-             config_.segmenter.mask_delay_s * ImageSpeed(frame)};
-  }
+  const ModelPrior prior = PriorOf(frame, doubtful);
   const auto explains = [this](const Vec3& x_c) {
     return IsNearSurface(field_, T_oc_ * x_c, config_.segmenter.explained_m);
   };
@@ -220,6 +209,7 @@ Status Tracker<Limits>::Observe(const DepthFrame& frame, Estimate& estimate,
   const Status segmented = segmenter.Segment(frame, config_.segmenter, prior, explains,
                                              object_mask_, overrun_, estimate.rejected);
   contact_ = segmenter.contact();
+  elsewhere_ = segmenter.elsewhere() || (doubtful && LooksElsewhere(frame));
   if (segmented != Status::kOk) return segmented;
   const auto interior = InteriorOf(object_mask_, config_.sampler.border_px);
   stopwatch.Mark(Stage::kSegment);

@@ -93,25 +93,29 @@ Status Tracker<Limits>::Conclude(const DepthFrame& frame, Status observed, const
                 .position_to_model_std_m = LargestPositionStd(covariance.to_model),
                 .rotation_to_model_std_rad = LargestRotationStd(covariance.to_model)};
   }
-  evidence.in_view = observed == Status::kOk;
-  const bool near = !monitor_.Doubts(frame.stamp_ns) || IsSameObjectFrame(frame, aligned.T_oc);
-  const bool followed = evidence.in_view && near && monitor_.Accepts(evidence, frame.stamp_ns);
+  const bool seen = observed == Status::kOk;
+  // What is found elsewhere says nothing of whether the object is in view.
+  if (!elsewhere_) in_view_ = seen;
+  evidence.in_view = in_view_;
+  const bool near =
+      !monitor_.Doubts(frame.stamp_ns) || (!elsewhere_ && IsSameObjectFrame(frame, aligned.T_oc));
+  const bool followed = seen && near && monitor_.Accepts(evidence, frame.stamp_ns);
   // Foreign surface in the model contradicts the true pose: unless it is forgotten at poses that
   // are refused for that alone, too, it keeps the object lost.
-  const bool explained =
-      evidence.in_view && near && evidence.registered && monitor_.Explains(evidence);
+  const bool explained = seen && near && evidence.registered && monitor_.Explains(evidence);
   if (followed || explained) ForgetContradicted(frame, aligned.T_oc, estimate);
-  const bool recognised = evidence.in_view && !near && monitor_.Recognises(evidence);
+  const bool recognised = seen && !near && monitor_.Recognises(evidence);
   const bool found_again =
       recognition_.Confirm(recognised, aligned.T_oc, aligned.center_c, frame.stamp_ns);
-  recognition_.Consider(evidence.in_view && !near && monitor_.Suspects(evidence), aligned.T_oc);
+  recognised_elsewhere_ = elsewhere_;
+  recognition_.Consider(seen && !near && monitor_.Suspects(evidence), aligned.T_oc);
   evidence.registered = followed || found_again;
   monitor_.Update(evidence, frame.stamp_ns);
   if (evidence.registered) {
     Follow(frame.stamp_ns, aligned, covariance, found_again, estimate);
   } else {
     // A mask shows where it is; what it was doing when it was lost no longer does.
-    const bool masked = frame.mask.given() && evidence.in_view;
+    const bool masked = frame.mask.given() && seen;
     if (masked && !near && FitsModel(aligned.center_c)) {
       T_oc_ = Recentred(field_, T_oc_, aligned.center_c);
     }

@@ -16,6 +16,37 @@
 
 namespace disflow {
 
+/// Whether what was recognised away from where the object is predicted is looked at again.
+template <CapacityProfile Limits>
+bool Tracker<Limits>::LooksElsewhere(const DepthFrame& frame) const noexcept {
+  return recognised_elsewhere_ && !frame.mask.given() &&
+         (recognition_.pending() || recognition_.suspected());
+}
+
+/// What is known of where the object is in the image.
+template <CapacityProfile Limits>
+ModelPrior Tracker<Limits>::PriorOf(const DepthFrame& frame, bool doubtful) noexcept {
+  ModelPrior prior;
+  prior.nearest_in_vain = nearest_in_vain_;
+  if (!started_) return prior;
+  contact_.turned_rad += TurnBetween(T_oc_previous_.rotation(), T_oc_.rotation()).norm();
+  const bool elsewhere = doubtful && LooksElsewhere(frame);
+  // In every other frame: what touches something is found about its prediction alone.
+  const bool anywhere = doubtful && !elsewhere && monitor_.state() == TrackingState::kLost &&
+                        monitor_.missed() % 2 == 1;
+  // A mask is then the better guide.
+  prior.known = !(doubtful && frame.mask.given());
+  prior.doubtful = doubtful;
+  prior.anywhere = anywhere;
+  prior.unseen_s = Seconds(SpanNs(twist_filter_.stamp_ns(), frame.stamp_ns));
+  prior.T_oc = elsewhere ? recognition_.T_oc() : T_oc_;
+  prior.box_min_m = field_.bounds_min_m();
+  prior.box_max_m = field_.bounds_max_m();
+  prior.contact = contact_;
+  prior.motion_px = config_.segmenter.mask_delay_s * ImageSpeed(frame);
+  return prior;
+}
+
 /// Where to look for the object: near the prediction, after a few frames in vain turned anyhow, and
 /// where it was recognised.
 template <CapacityProfile Limits>
@@ -30,7 +61,7 @@ PoseSearchPrior Tracker<Limits>::SearchPrior(StampNs stamp_ns) const noexcept {
     prior.turned_over = true;
   }
   // What is found is compared with what is found elsewhere, too.
-  if (found || monitor_.searched() >= kLocalSearches) {
+  if (found || elsewhere_ || monitor_.searched() >= kLocalSearches) {
     prior.global = global_part_;
     prior.expected_turn = {T_oc_.rotation(),
                            CoastedCovariance(stamp_ns).template bottomRightCorner<3, 3>()};

@@ -161,6 +161,21 @@ TEST_P(Loss, ObjectThatWasHiddenForSecondsAndMoved_IsRecognisedWithinHalfASecond
   }
 }
 
+TEST_P(Loss, ObjectThatComesBackElsewhereWithoutAMask_IsRecognisedWithinAFifthOfASecond) {
+  // In a second it has moved by 0.2 m and turned: about its prediction a piece of it is seen.
+  constexpr int kHidden = 100;
+  constexpr int kSeenAgain = kHidden + 30;
+  host::SimulationOptions options = Scene(GetParam(), kSeenAgain + 25);
+  options.motion = host::MotionKind::kFast;
+  options.mask = host::MaskKind::kNone;
+  const TrackedSequence& sequence = Track(options, kSeenAgain + 25, [=](int i) {
+    return i >= kHidden && i < kSeenAgain ? Fate::kBlank : Fate::kSeen;
+  });
+  EXPECT_EQ(sequence.At(kSeenAgain - 1).estimate.state, TrackingState::kLost);
+  EXPECT_EQ(sequence.At(kSeenAgain + 6).estimate.status, Status::kOk);
+  ExpectSameObjectFrame();
+}
+
 TEST_P(Loss, AnotherObjectInItsPlace_IsNotTakenForIt) {
   OfferAnotherInItsPlace(host::MotionKind::kModerate,
                          [](int i, const Estimate& estimate, const host::Vec3d&) {

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "depth_scene.h"
+#include "disflow/depth/segmenter_anywhere_impl.h"
 #include "disflow/depth/segmenter_choice_impl.h"
 #include "disflow/depth/segmenter_impl.h"
 #include "disflow/limits.h"

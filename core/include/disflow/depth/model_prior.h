@@ -16,6 +16,7 @@ struct ObjectContact {
 struct ModelPrior {
   bool known = false;
   bool doubtful = false;          ///< The prediction may be far off: the object was lost.
+  bool anywhere = false;          ///< Without a mask it is looked for in all of the image.
   float unseen_s = 0.0F;          ///< How long ago it was seen last.
   PoseObjectFromCamera T_oc;      ///< Predicted.
   Vec3 box_min_m = Vec3::Zero();  ///< Axis-aligned bounds of the model, object frame.

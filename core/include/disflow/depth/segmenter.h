@@ -48,6 +48,8 @@ class Segmenter {
 
   /// How the object of the last image touched what is around it; nothing, under a mask.
   [[nodiscard]] const ObjectContact& contact() const noexcept { return contact_; }
+  /// Whether what was drawn lies away from where the object is predicted, see ModelPrior::anywhere.
+  [[nodiscard]] bool elsewhere() const noexcept { return elsewhere_; }
 
  private:
   using Surfaces = PixelRuns<Limits::kMaxRuns, Limits::kMaxImageWidth>;
@@ -74,6 +76,13 @@ class Segmenter {
   [[nodiscard]] std::uint32_t LookAround(const DepthFrame& frame, const SegmenterConfig& config,
                                          const ModelPrior& prior, Explains& explains,
                                          Mask& object) noexcept;
+
+  /// Draws the surface that is as large as the model and nearest to where that is predicted.
+  /// @return Whether there is one.
+  template <class Explains>
+  [[nodiscard]] bool LookAnywhere(const DepthFrame& frame, const SegmenterConfig& config,
+                                  const ModelPrior& prior, Explains& explains,
+                                  Mask& object) noexcept;
 
   /// Connected surfaces of what could be the object.
   void BuildSurfaces(const DepthFrame& frame, const SegmenterConfig& config,
@@ -154,6 +163,7 @@ class Segmenter {
   PixelBox box_;
   Manner manner_;
   ObjectContact contact_;
+  bool elsewhere_ = false;
   std::array<SurfaceVote, static_cast<std::size_t>(Surfaces::kMaxComponents)> votes_;
 };
 

@@ -22,6 +22,7 @@ Status Segmenter<Limits>::Segment(const DepthFrame& frame, const SegmenterConfig
   object.Start(frame.depth.width_px, frame.depth.height_px);
   overrun.Start(frame.depth.width_px, frame.depth.height_px);
   contact_ = {};
+  elsewhere_ = false;
   if (frame.mask.given()) {
     for (int v = 0; v < frame.mask.height_px; ++v)
       object.SetFromBytes(v, 0, frame.mask.width_px, frame.mask.row(v), frame.mask.label);
@@ -38,7 +39,7 @@ Status Segmenter<Limits>::Segment(const DepthFrame& frame, const SegmenterConfig
       Look({}, frame, config, prior, explains, object);
       counters.runs_dropped += static_cast<std::uint32_t>(surfaces_.dropped());
       Redraw(frame, prior, explains, object);
-    } else {
+    } else if (!prior.anywhere || !LookAnywhere(frame, config, prior, explains, object)) {
       counters.runs_dropped += LookAround(frame, config, prior, explains, object);
     }
   }
