@@ -24,6 +24,24 @@ double RotationStd(const TrackedFrame& frame) {
       static_cast<double>(frame.estimate.pose_covariance.bottomRightCorner<3, 3>().trace()));
 }
 
+/// A depth image of nothing else.
+std::vector<float> DepthOfABall(const host::SimulationOptions& options, const Vec3& center_m,
+                                float radius_m) {
+  const PinholeCamera camera = host::SimulatedCamera(options);
+  std::vector<float> depth_m;
+  for (int v = 0; v < options.height_px; ++v) {
+    for (int u = 0; u < options.width_px; ++u) {
+      const Vec3 ray = camera.Ray(static_cast<float>(u), static_cast<float>(v));
+      const float along = ray.dot(center_m);
+      const float under_root =
+          along * along - ray.squaredNorm() * (center_m.squaredNorm() - radius_m * radius_m);
+      depth_m.push_back(under_root < 0.0F ? 0.0F
+                                          : (along - std::sqrt(under_root)) / ray.squaredNorm());
+    }
+  }
+  return depth_m;
+}
+
 /// Whatever happens, no sequence of this file may be lied about.
 class Loss : public ::testing::TestWithParam<ObjectKind> {
  protected:
@@ -174,6 +192,27 @@ TEST_P(Loss, ObjectThatComesBackElsewhereWithoutAMask_IsRecognisedWithinAFifthOf
   EXPECT_EQ(sequence.At(kSeenAgain - 1).estimate.state, TrackingState::kLost);
   EXPECT_EQ(sequence.At(kSeenAgain + 6).estimate.status, Status::kOk);
   ExpectSameObjectFrame();
+}
+
+TEST_P(Loss, AnotherThingElsewhereWithoutAMask_IsNotTakenForItAndNoReasonToStartAnew) {
+  constexpr float kRadius_m = 0.07F;  // as large as either object
+  constexpr float kBehind_m = 0.5F;
+  host::SimulationOptions options = Scene(GetParam(), 60);
+  options.mask = host::MaskKind::kNone;
+  TrackedSequence& sequence = Track(options, 60);
+  ASSERT_EQ(sequence.last().estimate.state, TrackingState::kTracking);
+  const Vec3 center_m(0.0F, 0.0F, sequence.last().estimate.T_co.translation().z() + kBehind_m);
+  const std::vector<float> ball_m = DepthOfABall(options, center_m, kRadius_m);
+  DepthFrame frame;
+  host::Simulation later(options, host::MakeObjectMesh(options.object));
+  later.Render(59, frame);
+  frame.depth.data = ball_m.data();
+  for (int i = 0; i < 120; ++i) {
+    frame.stamp_ns += 33'333'333;
+    const Estimate estimate = sequence.Offer(frame);
+    EXPECT_NE(estimate.status, Status::kOk) << i;
+    EXPECT_EQ(estimate.reset_counter, 0U) << i;
+  }
 }
 
 TEST_P(Loss, AnotherObjectInItsPlace_IsNotTakenForIt) {
