@@ -61,6 +61,8 @@ constexpr std::array kExplanations{
     Explanation{"drop", "Share of images that are lost [0]"},
     Explanation{"repeat", "Share of images that are the one before again [0]"},
     Explanation{"jitter_ms", "Stamps are off by up to this, ms [0]"},
+    Explanation{"blank_s", "For so long images have no depth, masks no pixels [0]"},
+    Explanation{"blank_at_s", "From then on [3]"},
     Explanation{"mask_delay", "Masks are late by so many frames [0]"},
     Explanation{"mask_grow_px", "Masks reach too far, or (< 0) not far enough [0]"},
     Explanation{"mask_flicker", "Share of masks that are missing or cut [0]"},

@@ -172,6 +172,17 @@ int Simulation::SourceOf(int index) const {
   return index;
 }
 
+bool Simulation::IsBlank(int index) const {
+  const double since_s = index / options_.fps - options_.blank_at_s;
+  return since_s >= 0.0 && since_s < options_.blank_s;
+}
+
+void Simulation::Blank() {
+  std::fill(depth_m_.begin(), depth_m_.end(), 0.0F);
+  for (std::vector<std::uint8_t>* mask : {&gt_mask_, &sloppy_mask_, &disturbed_mask_})
+    std::fill(mask->begin(), mask->end(), std::uint8_t{0});
+}
+
 void Simulation::Render(int index, DepthFrame& frame) {
   const FrameTruth truth = TruthAt(index);
   const int shown = SourceOf(index);
@@ -186,6 +197,7 @@ void Simulation::Render(int index, DepthFrame& frame) {
   depth_camera_->Measure(shown, scene, depth_m_);
   DrawMasks(shown);
   if (HasDisturbedMask()) DisturbMasks(shown);
+  if (IsBlank(shown)) Blank();
 
   frame = DepthFrame{};
   frame.depth = DepthToDeliver();

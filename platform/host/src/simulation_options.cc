@@ -64,6 +64,7 @@ constexpr Range<int> kSide{32, 4096};
 constexpr Range<double> kFocal{16.0, 16384.0};
 constexpr Range<double> kShare{0.0, 0.9};
 constexpr Range<double> kJitter{0.0, 1000.0};
+constexpr Range<double> kTime{0.0, 3600.0};
 constexpr Range<int> kDelay{0, 30};
 constexpr Range<int> kGrow{-40, 40};
 constexpr Range<double> kEdge{0.0, 14.0};
@@ -150,6 +151,8 @@ constexpr std::array kOptions{ChoiceOption<&Options::motion, kMotions>("motion")
                               NumberOption<&Options::drop, kShare>("drop"),
                               NumberOption<&Options::repeat, kShare>("repeat"),
                               NumberOption<&Options::jitter_ms, kJitter>("jitter_ms"),
+                              NumberOption<&Options::blank_s, kTime>("blank_s"),
+                              NumberOption<&Options::blank_at_s, kTime>("blank_at_s"),
                               ChoiceOption<&Options::camera, kCameras>("camera"),
                               ChoiceOption<&Options::mask, kMasks>("mask"),
                               NumberOption<&Options::mask_delay, kDelay>("mask_delay"),

@@ -7,6 +7,7 @@ objects: two and four objects that pass in front of each other, and the time wit
 peers: generalised and point-to-plane ICP of PCL beside the tracker, on the same recorded frames.
 cost: instructions per frame and stage, counted by callgrind.
 lot: sequences of which everything is drawn by lot, as many as wanted.
+again: objects that are out of sight for seconds, and whether they are found again.
 """
 
 import argparse
@@ -16,6 +17,7 @@ import time
 
 import ablation
 import accuracy
+import again
 import cost
 import lot
 import objects
@@ -31,6 +33,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[3]
 TUNING_SEEDS = [1, 2, 3]
 FINAL_SEEDS = [11, 12, 13, 14, 15]
 PEER_SEEDS = FINAL_SEEDS[:3]
+AGAIN_SEEDS = FINAL_SEEDS[:2]
 TUNING_LOT = list(range(1, 121))
 FINAL_LOT = list(range(201, 321))
 # Of everyday things.
@@ -45,7 +48,7 @@ def parse(words):
     parser.add_argument("--out", type=pathlib.Path, help="folder for what is measured [build/WHAT]")
     parser.add_argument("--docs", type=pathlib.Path, default=ROOT / "docs", help="folder of the pages [docs]")
     parser.add_argument("--seeds", type=pages.seeds, metavar="LIST",
-                        help="e.g. 11-15 or 1,4 [accuracy: 11-15, which nothing may be tuned on; peers: 11-13; lot: 201-320; "
+                        help="e.g. 11-15 or 1,4 [accuracy: 11-15, which nothing may be tuned on; peers: 11-13; again: 11, 12; lot: 201-320; "
                              "cost: always 11; others: 1-3]")
     parser.add_argument("--tune", action="store_true", help="seeds 1-3, lot: 1-120, for choosing settings; the pages stay as they are")
     parser.add_argument("--quick", action="store_true", help="seed 1 alone, lot: 1-12; the pages stay as they are")
@@ -58,7 +61,7 @@ def parse(words):
                         help="lot: everyday things, drawn with OpenSCAD, in place of the simulator's own: six for choosing by (--tune), "
                              "six others for the page; numbers 1-60 and 321-380")
     parser.add_argument("--continue", action="store_true", dest="resume",
-                        help="accuracy, lot: of a run that was broken off, keep what the same programs have measured")
+                        help="accuracy, again, lot: of a run that was broken off, keep what the same programs have measured")
     parser.add_argument("--frames-in", type=pathlib.Path, metavar="DIR", dest="frames_dir",
                         help="accuracy, lot: keep the frames of every sequence here, 270 MB each, and take them from here the next "
                              "time: the same figures in a second where a stereo camera takes a minute. To be removed when the "
@@ -159,6 +162,13 @@ def measure_lot(options, seeds, whole):
         print(lot.compare(tickets, before, results))
 
 
+def measure_again(options, seeds, whole):
+    text = again.page(again.measure(runs.Programs(options.bin, options.out, options.resume), seeds), seeds)
+    if whole:
+        pages.replace_part(options.docs / "results.md", "again", text)
+    print(text)
+
+
 MEASURES = {
     "accuracy": measure_accuracy,
     "ablation": measure_ablation,
@@ -166,12 +176,13 @@ MEASURES = {
     "peers": measure_peers,
     "cost": measure_cost,
     "lot": measure_lot,
+    "again": measure_again,
 }
 # Seeds to choose by, and how many of them are enough for a look, where they are others than TUNING_SEEDS and one.
 TUNING = {"lot": TUNING_LOT, "things": TUNING_THINGS}
 QUICK = {"lot": 12, "things": 12}
 # Seeds that nothing was tuned on, where figures are published.
-SEEDS = {"accuracy": FINAL_SEEDS, "peers": PEER_SEEDS, "lot": FINAL_LOT, "things": FINAL_THINGS}
+SEEDS = {"accuracy": FINAL_SEEDS, "peers": PEER_SEEDS, "again": AGAIN_SEEDS, "lot": FINAL_LOT, "things": FINAL_THINGS}
 
 
 def main(words):

@@ -16,6 +16,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "tests" / "
 
 import ablation
 import accuracy
+import again
 import cost
 import figures
 import lot
@@ -394,10 +395,46 @@ class Pages(unittest.TestCase):
             self.assertEqual(page.read_text(encoding="utf-8"), "all by hand\n")
 
     def test_the_pages_in_the_tree_have_their_markers(self):
-        for name, part in (("results.md", "accuracy"), ("results.md", "lot"), ("results.md", "things"), ("results.md", "peers"), ("method.md", "ablation"), ("performance.md", "cost")):
+        for name, part in (("results.md", "accuracy"), ("results.md", "lot"), ("results.md", "again"), ("results.md", "things"), ("results.md", "peers"), ("method.md", "ablation"), ("performance.md", "cost")):
             text = (main.ROOT / "docs" / name).read_text(encoding="utf-8")
             self.assertIn(f"<!-- {part}:begin", text)
             self.assertIn(f"<!-- {part}:end -->", text)
+
+
+class Again(unittest.TestCase):
+    CASE = again.Case("box", "none", "d415", blank_s=2, seed=11)
+    BACK = 150  # (3 + 2) s
+
+    def outcome(self, rows, add_s_m=0.001):
+        """@param rows By frame, (status, reset_counter)."""
+        frames = {frame: {"status": status, "reset_counter": counter} for frame, (status, counter) in rows.items()}
+        errors = {frame: {"add_s_m": str(add_s_m)} for frame in rows}
+        return again.outcome(self.CASE, frames, errors)
+
+    def test_the_simulator_is_told_all_of_a_case(self):
+        self.assertEqual(self.CASE.back, self.BACK)
+        self.assertEqual(self.CASE.job.address, "sim:box?motion=fast&noise=d415&mask=none&frames=210&blank_at_s=3&blank_s=2&seed=11")
+        self.assertEqual(len({case.job.stem for case in again.cases([11, 12])}), len(again.cases([11, 12])))
+
+    def test_what_is_found_in_its_object_frame_is_right_or_wrong_by_its_surface(self):
+        rows = {89: ("ok", "0"), self.BACK: ("registration_failed", "0"), self.BACK + 7: ("ok", "0")}
+        self.assertEqual(self.outcome(rows), again.Outcome("found", 7))
+        self.assertEqual(self.outcome(rows, add_s_m=0.011), again.Outcome("wrong", 7))
+
+    def test_another_object_frame_is_not_found_again(self):
+        self.assertEqual(self.outcome({89: ("ok", "0"), self.BACK + 7: ("ok", "1")}), again.Outcome("anew"))
+
+    def test_what_is_found_too_late_or_was_lost_before_is_told_apart(self):
+        late = {89: ("ok", "0"), self.BACK - 1: ("ok", "0"), self.BACK + again.WATCHED: ("ok", "0")}
+        self.assertEqual(self.outcome(late), again.Outcome("never"))
+        self.assertEqual(self.outcome({89: ("registration_failed", "0"), self.BACK: ("ok", "0")}), again.Outcome("before"))
+
+    def test_every_case_is_in_one_cell_of_the_page(self):
+        outcomes = {case: again.Outcome("found", 17 if case.shape == "mug" else 2) for case in again.cases([11])}
+        text = again.page(outcomes, [11])
+        self.assertIn("Seed 11; ", text)
+        self.assertIn("| given, d415 | 21 | 0 | 18 | 21 | 0 | 0 | 0 |", text)
+        self.assertIn("| none, tof | 21 | 0 | 18 | 21 | 0 | 0 | 0 |", text)
 
 
 if __name__ == "__main__":

@@ -57,6 +57,30 @@ bool IsWithin(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t
                     [](std::uint8_t in_a, std::uint8_t in_b) { return in_a <= in_b; });
 }
 
+TEST(BlankTime, OfAnyMask_HasNeitherDepthNorMaskAndEndsAsIfItHadNotBeen) {
+  constexpr int kFirst = 45;  // 1.5 s
+  constexpr int kBack = kFirst + 15;
+  SimulationOptions options = Small();
+  options.blank_at_s = 1.5;
+  for (const int grow_px : {0, 4}) {
+    options.mask_grow_px = grow_px;
+    options.blank_s = 0.0;
+    const std::vector<Shot> seen = {Take(options, kFirst - 1), Take(options, kBack)};
+    options.blank_s = 0.5;
+    EXPECT_EQ(Take(options, kFirst - 1).depth_m, seen.front().depth_m);
+    for (const int index : {kFirst, kBack - 1}) {
+      const Shot blank = Take(options, index);
+      EXPECT_EQ(std::count(blank.depth_m.begin(), blank.depth_m.end(), 0.0F),
+                kWidth_px * kHeight_px);
+      ASSERT_FALSE(blank.mask.empty());
+      EXPECT_EQ(Size(blank.mask), 0) << index;
+      EXPECT_EQ(Size(blank.exact), 0) << index;
+    }
+    EXPECT_EQ(Take(options, kBack).depth_m, seen.back().depth_m);
+    EXPECT_EQ(Take(options, kBack).mask, seen.back().mask);
+  }
+}
+
 TEST(DisturbedMask, Delayed_IsThatOfTheFrameBefore) {
   SimulationOptions options = Small();
   options.mask_delay = 2;

@@ -20,7 +20,8 @@ TEST(SimulationOptions, EveryKey_ReachesItsField) {
   SimulationOptions options;
   const hal::Fault fault = Parse(
       "sim:bottle?motion=flying&noise=kinect&seed=7&frames=12&fps=60&width=320&height=240&focal="
-      "250&occluder=arm&drop=0.25&repeat=0.05&jitter_ms=3&distance_m=1.5&camera=moving&mask=sloppy&"
+      "250&occluder=arm&drop=0.25&repeat=0.05&jitter_ms=3&blank_s=2&blank_at_s=1.5&distance_m=1.5&"
+      "camera=moving&mask=sloppy&"
       "mask_delay=2&"
       "mask_"
       "grow_px=+6&mask_flicker=0.1&format=z16",
@@ -39,6 +40,8 @@ TEST(SimulationOptions, EveryKey_ReachesItsField) {
   EXPECT_EQ(options.drop, 0.25);
   EXPECT_EQ(options.repeat, 0.05);
   EXPECT_EQ(options.jitter_ms, 3.0);
+  EXPECT_EQ(options.blank_s, 2.0);
+  EXPECT_EQ(options.blank_at_s, 1.5);
   EXPECT_EQ(options.distance_m, 1.5);
   EXPECT_EQ(options.mask_delay, 2);
   EXPECT_EQ(options.mask_grow_px, 6);

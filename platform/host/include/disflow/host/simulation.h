@@ -93,6 +93,8 @@ class Simulation {
   void DrawMasks(int index);
   void DisturbMasks(int index);
   [[nodiscard]] int SourceOf(int index) const;
+  [[nodiscard]] bool IsBlank(int index) const;
+  void Blank();
   [[nodiscard]] Vec3d UpFromTable() const;
   [[nodiscard]] Plane TableAt(double time_s, const FrameTruth& truth) const;
   [[nodiscard]] DepthView DepthToDeliver();

@@ -95,7 +95,9 @@ struct SimulationOptions {
   double distance_m = 0.0;
   double drop = 0.0;    ///< Share of frames that are lost; never the first.
   double repeat = 0.0;  ///< Share of frames that show the image before them again; never the first.
-  double jitter_ms = 0.0;  ///< Stamps are off by up to this, and by less than half a period.
+  double jitter_ms = 0.0;   ///< Stamps are off by up to this, and by less than half a period.
+  double blank_s = 0.0;     ///< For so long the images have no depth and the masks no pixels.
+  double blank_at_s = 3.0;  ///< From then on.
   CameraKind camera = CameraKind::kStatic;
   MaskKind mask = MaskKind::kGt;
   int mask_delay = 0;         ///< The mask is that of so many frames before.
