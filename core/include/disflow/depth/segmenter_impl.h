@@ -39,7 +39,9 @@ Status Segmenter<Limits>::Segment(const DepthFrame& frame, const SegmenterConfig
       Look({}, frame, config, prior, explains, object);
       counters.runs_dropped += static_cast<std::uint32_t>(surfaces_.dropped());
       Redraw(frame, prior, explains, object);
-    } else if (!prior.anywhere || !LookAnywhere(frame, config, prior, explains, object)) {
+    } else if (prior.anywhere && LookAnywhere(frame, config, prior, explains, object)) {
+      counters.runs_dropped += static_cast<std::uint32_t>(surfaces_.dropped());
+    } else {
       counters.runs_dropped += LookAround(frame, config, prior, explains, object);
     }
   }
